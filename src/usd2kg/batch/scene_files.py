@@ -7,13 +7,12 @@ from collections.abc import Iterable, Iterator
 from pathlib import Path
 from typing import NamedTuple
 
-from usd2kg.convert import FORMATS
+from usd2kg.convert import FORMATS, STAGE_ENDINGS
 from usd2kg.errors import SceneError
 
 __all__ = ["SceneFile", "find_scene_files", "output_names"]
 
-_STAGES = (".usd", ".usda", ".usdc", ".usdz")
-_ENDINGS = (*_STAGES, *(ending for entry in FORMATS for ending in entry.endings))
+_ENDINGS = (*STAGE_ENDINGS, *(ending for entry in FORMATS for ending in entry.endings))
 
 
 class SceneFile(NamedTuple):
@@ -65,7 +64,7 @@ def output_names(scenes: Iterable[SceneFile]) -> dict[str, str]:
 def _scenes_of(place: str) -> Iterator[Path]:
     path = Path(place)
     if path.is_dir():
-        yield from (file for file in sorted(_files_below(path)) if file.suffix.lower() in _STAGES)
+        yield from (file for file in sorted(_files_below(path)) if file.suffix.lower() in STAGE_ENDINGS)
     elif path.is_file():
         yield path.absolute()
     else:

@@ -1,6 +1,16 @@
 """Files of other formats → stages in memory, by converters that are installed as extras."""
 
-from usd2kg.convert.formats import FORMATS, SourceFormat, find_format
+from usd2kg.convert.formats import FORMATS, LAYER_ENDINGS, STAGE_ENDINGS, SourceFormat, find_format, is_stage
 from usd2kg.convert.origin import SOURCE_ID, Origin, read_origin
 
-__all__ = ["FORMATS", "SOURCE_ID", "Origin", "SourceFormat", "find_format", "read_origin"]
+__all__ = [
+    "FORMATS",
+    "LAYER_ENDINGS",
+    "SOURCE_ID",
+    "STAGE_ENDINGS",
+    "Origin",
+    "SourceFormat",
+    "find_format",
+    "is_stage",
+    "read_origin",
+]

@@ -1,9 +1,14 @@
-"""The formats beyond USD that are converted at reading, by the ending of the file."""
+"""The formats of scenes by the ending of the file: USD, and those that are converted at reading."""
 
 from dataclasses import dataclass
 from pathlib import Path
 
-__all__ = ["FORMATS", "SourceFormat", "find_format"]
+__all__ = ["FORMATS", "LAYER_ENDINGS", "STAGE_ENDINGS", "SourceFormat", "find_format", "is_stage"]
+
+LAYER_ENDINGS = (".usda", ".usdc", ".usd")
+"""USD files that hold one layer."""
+STAGE_ENDINGS = (*LAYER_ENDINGS, ".usdz")
+"""USD files that open as a stage."""
 
 
 @dataclass(frozen=True)
@@ -33,3 +38,8 @@ def find_format(path: Path) -> SourceFormat | None:
     """Return the format of a file that needs conversion, by its ending; None for USD files and unknown endings."""
     ending = path.suffix.lower()
     return next((entry for entry in FORMATS if ending in entry.endings), None)
+
+
+def is_stage(path: Path) -> bool:
+    """Return whether a file is a USD stage or is converted to one, by its ending."""
+    return path.suffix.lower() in STAGE_ENDINGS or find_format(path) is not None

@@ -81,7 +81,8 @@ def _colors(geometry: "trimesh.Trimesh") -> NDArray[np.float64] | None:
     if visual.kind == "face":
         return np.asarray(visual.face_colors[:, :3], np.float64) / 255
     material = getattr(visual, "material", None)
-    factor, texture = _base_color(material), _texture_color(material)
+    factor, image = _base_color(material), _texture(material)
+    texture = None if image is None else _mean_color(image)
     if factor is None and texture is None:
         return None
     product = np.ones(3) if factor is None else np.array(factor)
@@ -96,11 +97,21 @@ def _base_color(material: Any) -> tuple[float, float, float] | None:
     return red, green, blue
 
 
-def _texture_color(material: Any) -> NDArray[np.float64] | None:
-    """Return the mean of the base colour's texture, linear RGB; None without a texture."""
-    image = getattr(material, "baseColorTexture", getattr(material, "image", None))
-    if image is None:
+def _texture(material: Any) -> Any:
+    """Return the image of the base colour, or None."""
+    return getattr(material, "baseColorTexture", getattr(material, "image", None))
+
+
+def _opacity(material: Any) -> float | None:
+    """Return the opacity of a material whose alpha counts: glTF ignores alpha unless the mode is BLEND."""
+    factor = getattr(material, "baseColorFactor", None)
+    if factor is None or len(factor) < 4 or getattr(material, "alphaMode", None) != "BLEND":
         return None
+    return float(factor[3]) / 255
+
+
+def _mean_color(image: Any) -> NDArray[np.float64]:
+    """Return the mean colour of a texture, linear RGB."""
     small = image.convert("RGB")
     small.thumbnail((_MAX_TEXTURE_SIDE, _MAX_TEXTURE_SIDE))
     linear = linear_from_srgb(np.asarray(small, np.float64) / 255)
@@ -114,10 +125,10 @@ def _material(geometry: "trimesh.Trimesh") -> SurfaceMaterial | None:
     name = getattr(material, "_name", None) or getattr(material, "_data", {}).get("name")
     if material is None or not isinstance(name, str):
         return None
-    is_textured = _texture_color(material) is not None
     return SurfaceMaterial(
         name,
-        color=None if is_textured else _base_color(material),
+        color=None if _texture(material) is not None else _base_color(material),
+        opacity=_opacity(material),
         roughness=_number(getattr(material, "roughnessFactor", None)),
         metallic=_number(getattr(material, "metallicFactor", None)),
     )

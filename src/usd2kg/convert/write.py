@@ -7,14 +7,12 @@ from typing import Any
 from pxr import UsdGeom
 
 from usd2kg.convert.converted import Converted
-from usd2kg.convert.formats import FORMATS, find_format
+from usd2kg.convert.formats import FORMATS, LAYER_ENDINGS, find_format
 from usd2kg.convert.read import convert_stage
 from usd2kg.errors import OutputError, SceneError
 from usd2kg.files import check_apart, check_writable, write_whole
 
 __all__ = ["convert_file"]
-
-_ENDINGS = (".usdc", ".usda", ".usd")
 
 
 def convert_file(
@@ -32,8 +30,8 @@ def convert_file(
         SceneError: the file is missing, of no known format, or broken, or its converter is not installed.
         OutputError: the layer cannot be written.
     """
-    if output.suffix.lower() not in _ENDINGS:
-        raise OutputError(f"{output}: expected a USD layer with a name ending in one of {', '.join(_ENDINGS)}")
+    if output.suffix.lower() not in LAYER_ENDINGS:
+        raise OutputError(f"{output}: expected a USD layer with a name ending in one of {', '.join(LAYER_ENDINGS)}")
     check_writable(output)
     check_apart([output], [source])
     known = ", ".join(ending for entry in FORMATS for ending in entry.endings)

@@ -6,7 +6,7 @@ from typing import NamedTuple
 
 import pyoxigraph as ox
 
-from usd2kg.convert import find_format
+from usd2kg.convert import is_stage
 from usd2kg.diff.graph_states import GraphStyle, detect_graph_style, objects_of_graph
 from usd2kg.diff.object_state import ObjectState, objects_of_scene
 from usd2kg.graph import GraphOptions, instantiate
@@ -17,9 +17,7 @@ from usd2kg.ontology import TBox
 from usd2kg.relations import ALL_KINDS, DEFAULT_KINDS, VIEWPOINT_KINDS, RelationOptions, find_relations
 from usd2kg.scene import ReadOptions, read_scene
 
-__all__ = ["Version", "VersionOptions", "is_stage", "read_objects", "read_versions"]
-
-_STAGE_SUFFIXES = frozenset({".usd", ".usda", ".usdc", ".usdz"})
+__all__ = ["Version", "VersionOptions", "read_objects", "read_versions"]
 
 
 class Version(NamedTuple):
@@ -39,11 +37,6 @@ class VersionOptions(NamedTuple):
     base: str | None = None
     """Namespace of the individuals; None for that of the other version, else one derived from the old file's name."""
     is_grounded: bool = True
-
-
-def is_stage(path: Path) -> bool:
-    """Return whether a file is a USD stage, or is converted to one, by its suffix."""
-    return path.suffix.lower() in _STAGE_SUFFIXES or find_format(path) is not None
 
 
 def read_objects(path: Path, options: ReadOptions) -> tuple[ObjectState, ...]:

@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, BinaryIO, NamedTuple, cast
 
 import pyoxigraph as ox
 
+from usd2kg.convert import STAGE_ENDINGS
 from usd2kg.errors import GraphError, one_line
 from usd2kg.garbage import paused_collection
 from usd2kg.graph.vocabulary import OWL, PREFIXES, RDF
@@ -47,7 +48,6 @@ RDF_FORMATS = {
 
 _TOO_LARGE = "holds a text that is too long to read, expected at most 16 MiB"
 """Error text for a literal beyond the limit of the parser."""
-_STAGES = (".usd", ".usda", ".usdc", ".usdz")
 _NOT_READ = {
     ".ofn": "graphs are not read from OWL functional syntax, which usd2kg ontology show and --ontology read as classes",
     ".graphml": "graphs are not read from GraphML, an export format",
@@ -95,7 +95,7 @@ def rdf_format(path: Path) -> ox.RdfFormat:
     found = RDF_FORMATS.get(name.suffix.lower())
     if found is None:
         ending, endings = name.suffix.lower(), ", ".join(RDF_FORMATS)
-        if ending in _STAGES:
+        if ending in STAGE_ENDINGS:
             raise GraphError(f"{path}: is a stage; expected its graph: usd2kg build {path} -o {path.stem}.ttl")
         if ending in _NOT_READ:
             raise GraphError(f"{path}: {_NOT_READ[ending]}; expected the same graph as one of {endings}")

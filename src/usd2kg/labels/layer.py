@@ -8,6 +8,7 @@ from typing import Any
 
 from pxr import Sdf, Tf, Usd
 
+from usd2kg.convert import LAYER_ENDINGS
 from usd2kg.errors import OutputError
 from usd2kg.files import check_writable, is_same_file, write_whole
 from usd2kg.labels.class_prims import ClassPrims
@@ -21,7 +22,6 @@ from usd2kg.scene.stage import captured_diagnostics, open_stage, translated_erro
 
 __all__ = ["write_labels"]
 
-_ENDINGS = (".usda", ".usdc", ".usd")
 _MARK = "usd2kg"
 """Key in `customLayerData` that identifies label layers."""
 _NOT_COPIED = frozenset("comment documentation layerRelocates primChildren primOrder subLayerOffsets subLayers".split())
@@ -51,8 +51,8 @@ def write_labels(
             layer of usd2kg.
     """
     chosen, target = options or LabelOptions(), Path(output)
-    if target.suffix.lower() not in _ENDINGS:
-        raise OutputError(f"{target}: expected a label layer with a name ending in one of {', '.join(_ENDINGS)}")
+    if target.suffix.lower() not in LAYER_ENDINGS:
+        raise OutputError(f"{target}: expected a label layer with a name ending in one of {', '.join(LAYER_ENDINGS)}")
     check_writable(target)
     opened = open_stage(source, ReadOptions())
     with translated_errors(opened.source), captured_diagnostics():

@@ -17,7 +17,7 @@ from typing import Any
 
 from pxr import Sdf, Tf, Usd, UsdGeom, UsdPhysics, UsdUtils
 
-from usd2kg.convert import FORMATS, Origin, SourceFormat, find_format, read_origin
+from usd2kg.convert import FORMATS, STAGE_ENDINGS, Origin, SourceFormat, find_format, read_origin
 from usd2kg.errors import SceneError
 from usd2kg.scene.expansion import check_expansion
 from usd2kg.scene.model import Diagnostic, StageFrame
@@ -40,8 +40,7 @@ __all__ = [
 UNREADABLE = (Tf.ErrorException, UnicodeDecodeError)
 """Exceptions that any call of OpenUSD may raise if a file is corrupt."""
 
-_SUFFIXES = (".usd", ".usda", ".usdc", ".usdz")
-_CONVERTED_SUFFIXES = tuple(ending for entry in FORMATS for ending in entry.endings)
+_CONVERTED_ENDINGS = tuple(ending for entry in FORMATS for ending in entry.endings)
 _STDERR = 2
 """File number of stderr, to which OpenUSD's C code writes."""
 _ADVICE_ERROR = b"failed call to posix_madvise"
@@ -207,7 +206,7 @@ def time_code(time: float | None) -> Usd.TimeCode:
 
 def _check_file(source: Path) -> None:
     if not source.exists():
-        raise SceneError(f"{source}: no such file; expected a USD stage ({', '.join(_SUFFIXES)})")
+        raise SceneError(f"{source}: no such file; expected a USD stage ({', '.join(STAGE_ENDINGS)})")
     if source.is_dir():
         raise SceneError(f"{source}: is a folder, expected a USD stage; name the root layer inside it")
     if source.stat().st_size == 0:
@@ -215,7 +214,7 @@ def _check_file(source: Path) -> None:
     if not Sdf.FileFormat.FindByExtension(str(source)) and find_format(source) is None:
         raise SceneError(
             f"{source}: not a USD file (ending {source.suffix or 'missing'!r}), expected one of "
-            f"{', '.join((*_SUFFIXES, *_CONVERTED_SUFFIXES))}; convert the scene to USD first"
+            f"{', '.join((*STAGE_ENDINGS, *_CONVERTED_ENDINGS))}; convert the scene to USD first"
         )
 
 

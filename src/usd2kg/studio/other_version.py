@@ -5,8 +5,8 @@ from dataclasses import dataclass, replace
 from enum import StrEnum
 from pathlib import Path
 
+from usd2kg.convert import is_stage
 from usd2kg.diff import Link, ObjectState, objects_of_scene
-from usd2kg.diff.versions import is_stage
 from usd2kg.grounding import ground, make_grounder
 from usd2kg.ontology import TBox
 from usd2kg.relations import SYMMETRIC_KINDS, Relation, find_relations
