@@ -229,7 +229,7 @@ def stages(draw):
     return inner + proto + xform("World", looks("Red", "Blue"), group, cube("Floor"), cube("Wall"))
 
 
-@settings(max_examples=60, deadline=None)
+@settings(max_examples=25, deadline=None)
 @given(stages(), st.sampled_from(LAYERS))
 def test_instances_are_read_like_copies(text, layer):
     of_instances, of_copies = on_stage(text, layer), on_stage(uninstanced(text), layer)

@@ -43,7 +43,7 @@ def siblings(count):
 
 
 def test_calls_for_siblings_are_in_proportion():
-    assert growth(siblings, 2_000, 8_000) == IN_PROPORTION
+    assert growth(siblings, 1_000, 4_000) == IN_PROPORTION
 
 
 def nested(count, make=component):
