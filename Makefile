@@ -1,3 +1,5 @@
+# Byte code makes each of the many starts of the command in the tests 0.4 s shorter.
+unexport PYTHONDONTWRITEBYTECODE
 PYTHON ?= python3
 BIN := .venv/bin
 READY := .venv/.ready
