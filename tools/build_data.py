@@ -17,8 +17,14 @@ from tools.settings_files import convert_settings
 from tools.source_schema import Schema, read_schema, validate_source
 from tools.word_lists import convert_word_lists
 
-BUILDERS = {"categories.csv": "tools.build_categories", "home.ttl": "tools.build_home_tbox"}
-"""Data file → module with a function of the same name that returns its content.
+BUILDERS = {
+    "categories.csv": ("tools.build_categories", "build_categories"),
+    "class_members.csv": ("tools.build_class_members", "build_class_members"),
+    "home.ttl": ("tools.builtin_tboxes", "build_home_tbox"),
+    "place_nouns.csv": ("tools.build_place_nouns", "build_place_nouns"),
+    "places.ttl": ("tools.builtin_tboxes", "build_places_tbox"),
+}
+"""Data file → module and function that returns its content.
 
 All other sources are copied, or are the input of a command. The modules are imported late, since usd2kg reads settings
 and word lists on import.
@@ -55,12 +61,13 @@ def build_files(schema: Schema) -> Iterator[BuiltFile]:
     for source in schema.sources.values():
         path = KNOWLEDGE / source.name
         validate_source(path, source)
-        if source.builds in BUILDERS:
-            name = BUILDERS[source.builds]
-            build: Callable[[], bytes] = getattr(import_module(name), name.rpartition(".")[2])
-            yield BuiltFile(source.builds, build())
-        elif source.builds not in schema.data:
-            yield BuiltFile(source.builds, path.read_bytes())
+        for name in source.builds:
+            if name in BUILDERS:
+                module, function = BUILDERS[name]
+                build: Callable[[], bytes] = getattr(import_module(module), function)
+                yield BuiltFile(name, build())
+            elif name not in schema.data:
+                yield BuiltFile(name, path.read_bytes())
 
 
 def check_listed(schema: Schema, knowledge: Path = KNOWLEDGE) -> None:

@@ -64,8 +64,8 @@ class Source:
     """One hand-written file."""
 
     name: str
-    builds: str
-    """Name of the data file that is made from it; its own name if it is copied."""
+    builds: tuple[str, ...]
+    """Names of the data files that are made from it; its own name if it is copied."""
     key: tuple[str, ...]
     """Columns whose values together occur once."""
     columns: tuple[Column, ...]
@@ -99,7 +99,7 @@ def _source(path: Path, name: str, table: Mapping[str, Any]) -> Source:
     key = tuple(table.get("key", ()))
     if bool(columns) != name.endswith(".csv") or not set(key) <= {column.name for column in columns}:
         raise SourceError(path, f"{name}: expected columns and a key of them for CSV files, and for these only")
-    return Source(name, table.get("builds", name), key, columns)
+    return Source(name, tuple(table.get("builds", [name])), key, columns)
 
 
 def _column(path: Path, source: str, name: str, fields: dict[str, Any]) -> Column:

@@ -7,7 +7,16 @@ from pathlib import Path
 from usd2kg.errors import GroundingError
 from usd2kg.graph import GraphOptions, KnowledgeGraph, instantiate, merge_imports
 from usd2kg.grounding import Decision, DecisionOrigin, Grounder, Grounding, NamingRegime, ground, make_grounder
-from usd2kg.ontology import ClassIRI, TBox, load_home_tbox, load_tbox, read_closure
+from usd2kg.grounding.built_in_choice import choose_built_in_tbox
+from usd2kg.ontology import (
+    PLACES_IRI,
+    ClassIRI,
+    TBox,
+    load_home_tbox,
+    load_places_tbox,
+    load_tbox,
+    read_closure,
+)
 from usd2kg.relations import RelationOptions, find_relations
 from usd2kg.scene import ReadOptions, Scene, read_scene
 
@@ -46,7 +55,8 @@ def build(
 
     Args:
         scene: root layer of a stage, a file that is converted to one, or a scene that is already read.
-        ontology: an OWL file, or a loaded TBox; default: the built-in home TBox.
+        ontology: an OWL file, `home` or `places` for a built-in TBox, or a loaded TBox; default: the built-in TBox that
+            suits the scene.
         grounder: a grounder or its name.
         regime: naming regime, for evaluation.
         evidence: names of the evidence groups to use; default: all.
@@ -65,7 +75,7 @@ def build(
         Usd2kgError: an input cannot be read, or an option is invalid.
     """
     read = scene if isinstance(scene, Scene) else read_scene(scene, paths=paths, options=options)
-    tbox = ontology if isinstance(ontology, TBox) else open_tbox(ontology)
+    tbox = ontology if isinstance(ontology, TBox) else open_tbox(ontology, scene=read)
     if alignment is not None:
         grounder = _aligned_grounder(grounder, Path(alignment))
     grounding = ground(read, tbox, grounder, regime=regime, evidence=evidence, decisions=decisions, carried=carried)
@@ -82,10 +92,20 @@ def _aligned_grounder(grounder: Grounder | str, alignment: Path) -> Grounder:
     return make_grounder(grounder, alignment=alignment)
 
 
-def open_tbox(ontology: Path | str | None) -> TBox:
-    """Return the TBox of an OWL file, or the built-in home TBox for None.
+def open_tbox(ontology: Path | str | None, *, scene: Scene | None = None, stated: Iterable[str] = ()) -> TBox:
+    """Return the TBox of an OWL file, or a built-in one.
+
+    Args:
+        ontology: an OWL file, or `home` or `places`; None for the built-in TBox of what `stated` names, else of what
+            suits the scene, else of homes.
+        scene: what is to be grounded.
+        stated: IRIs of ontologies or classes that a graph or a mapping states.
 
     Raises:
         OntologyError: the file cannot be read or has no class in scope.
     """
-    return load_tbox(ontology) if ontology is not None else load_home_tbox()
+    if ontology is not None:
+        return load_tbox(ontology)
+    if any(iri.startswith(PLACES_IRI) for iri in stated):
+        return load_places_tbox()
+    return load_home_tbox() if scene is None else choose_built_in_tbox(scene)

@@ -49,10 +49,10 @@ class _BuildTask:
     def prepare(self) -> "Callable[[Job], Mapping[str, Any]]":
         from usd2kg.pipeline import open_tbox  # noqa: PLC0415 - loads OpenUSD, too slow for --help
 
-        tbox = open_tbox(self.ontology)
+        tbox = open_tbox(self.ontology) if self.ontology is not None else None
         return lambda job: self._build(job, tbox)
 
-    def _build(self, job: "Job", tbox: "TBox") -> Mapping[str, Any]:
+    def _build(self, job: "Job", tbox: "TBox | None") -> Mapping[str, Any]:
         from usd2kg.cli.build_summary import summarize_build  # noqa: PLC0415
         from usd2kg.graph import merge_imports, write_graph  # noqa: PLC0415
         from usd2kg.ontology import read_closure  # noqa: PLC0415
@@ -61,7 +61,7 @@ class _BuildTask:
         with self.steps.run(job.source, tbox, job.base) as (result, _):
             graph = result.graph
             if self.merges_imports:
-                graph = merge_imports(graph, read_closure(tbox, graph.imports))
+                graph = merge_imports(graph, read_closure(result.tbox, graph.imports))
             try:
                 job.target.parent.mkdir(parents=True, exist_ok=True)
             except OSError as error:
@@ -139,10 +139,11 @@ def batch_command(
     check_files([], [scene.path for scene in scenes], grounding, reading, spatial)
     steps = SceneBuild(grounding, reading, spatial, annotation, profile)
     steps.check()
-    tbox = open_tbox(ontology)
-    notify_notes(tbox)
+    tboxes = [open_tbox(name) for name in ([ontology] if ontology is not None else ["home", "places"])]
+    for tbox in tboxes:
+        notify_notes(tbox)
     task = _BuildTask(steps, ontology, merge_imports)
-    options = _hash_options(task, tbox, ending, base)
+    options = _hash_options(task, tboxes, ending, base)
     limits = PoolLimits(workers or _count_cores(), time_limit, memory_limit)
     opened = None if store is None else open_for_loading(store, store_update, store_data)
     start = time.perf_counter()
@@ -205,14 +206,14 @@ def _loader(store: "SceneStore | None") -> "Callable[[Job], None]":
     return load
 
 
-def _hash_options(task: _BuildTask, tbox: "TBox", ending: str, base: str) -> str:
+def _hash_options(task: _BuildTask, tboxes: "Iterable[TBox]", ending: str, base: str) -> str:
     """Return a hash of what the graphs depend on besides the scenes: options, their files, ontology and version."""
     from importlib.metadata import version  # noqa: PLC0415
 
     steps = task.steps
     bundles = (steps.grounding, steps.reading, steps.spatial, steps.annotation)
     digest = hashlib.sha256()
-    for text in (version("usd2kg"), tbox.content_hash, repr(task), ending, base):
+    for text in (version("usd2kg"), *(tbox.content_hash for tbox in tboxes), repr(task), ending, base):
         digest.update(text.encode() + b"\0")
     for path in (path for bundle in bundles for path, is_output in bundle_files(bundle) if not is_output):
         try:

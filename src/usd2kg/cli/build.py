@@ -70,15 +70,18 @@ def build_command(
         opened = open_for_loading(store, store_update, store_data)
     steps = SceneBuild(grounding, reading, spatial, annotation, profile, carry_over)
     steps.check()
-    tbox = open_tbox(ontology)
-    notify_notes(tbox)
+    tbox = open_tbox(ontology) if ontology is not None else None
+    if tbox is not None:
+        notify_notes(tbox)
     summaries, has_failed = [], False
     for source, target in zip(scenes, targets, strict=True):
         start = time.perf_counter()
         try:
             with steps.run(source, tbox, base) as (result, session):
+                if tbox is None:
+                    notify_notes(result.tbox)
                 _save(result, merge_imports, target, opened)
-                session.report(result.grounding, tbox)
+                session.report(result.grounding, result.tbox)
         except Usd2kgError as error:
             # Of several scenes, the others are still built.
             if len(scenes) == 1:

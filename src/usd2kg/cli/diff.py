@@ -1,6 +1,8 @@
 """usd2kg diff: the changes between two versions of a scene."""
 
+from collections.abc import Iterable
 from dataclasses import dataclass
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
@@ -18,6 +20,7 @@ if TYPE_CHECKING:
     from usd2kg.diff import Tolerances
     from usd2kg.diff.versions import Version
     from usd2kg.ontology import TBox
+    from usd2kg.scene import Scene
 
 __all__ = ["diff_command"]
 
@@ -102,7 +105,7 @@ def diff_command(
         check_writable(output)
         check_files([output], [old, new, ontology], reading)
     options = VersionOptions(reading.read_options(), kinds, base, is_grounded=not no_ground)
-    before, after = read_versions(old, new, lambda: _open_tbox(ontology), options)
+    before, after = read_versions(old, new, partial(_open_tbox, ontology), options)
     if file_format == "sparql":
         title = f"{to_single_line(str(old))} -> {to_single_line(str(new))}"
         is_same = _write_update(before, after, title, graph, output)
@@ -142,10 +145,10 @@ def _parse_kinds(text: str) -> frozenset[str]:
     return kinds
 
 
-def _open_tbox(ontology: Path | None) -> "TBox":
+def _open_tbox(ontology: Path | None, scene: "Scene", stated: "Iterable[str]") -> "TBox":
     from usd2kg.pipeline import open_tbox  # noqa: PLC0415
 
-    tbox = open_tbox(ontology)
+    tbox = open_tbox(ontology, scene=scene, stated=stated)
     notify_notes(tbox)
     return tbox
 

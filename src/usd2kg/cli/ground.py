@@ -12,7 +12,7 @@ from usd2kg.cli.options.common import BaseIri, OntologyFile, SceneFile, TextFile
 from usd2kg.cli.options.grounding import AbbreviatedLength, GroundingOptions
 from usd2kg.cli.options.review import CarryOverOptions
 from usd2kg.cli.options.stage import StageOptions
-from usd2kg.cli.output import emit, notify
+from usd2kg.cli.output import emit, notify, notify_notes
 from usd2kg.errors import GroundingError
 
 if TYPE_CHECKING:
@@ -76,9 +76,10 @@ def ground_command(
             check_writable(target)
     check_files([output], [scene, ontology, paths], grounding, carry_over, reading)
     wanted = read_paths(paths) if paths is not None else None
-    tbox = open_tbox(ontology)
     read_options = reading.read_options()
     found = read_scene(scene, paths=wanted, options=read_options)
+    tbox = open_tbox(ontology, scene=found)
+    notify_notes(tbox)
     with open_session(grounding, found, tbox, scene, read_options, carry_over) as session:
         if session.model is not None and grounding.model.requests.dry_run:
             _print_dry_run(session, found, tbox, wanted, abbreviated_length, output)

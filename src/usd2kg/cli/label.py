@@ -1,5 +1,7 @@
 """usd2kg label: the classes of a run as semantic labels on the stage, and a linter for labels."""
 
+import gzip
+import zlib
 from collections.abc import Iterator
 from dataclasses import asdict
 from pathlib import Path
@@ -106,7 +108,7 @@ def write_command(
     target = output or Path(f"{scene.stem}.labels.usda")
     check_writable(target)
     check_apart([target], [scene, run, ontology])
-    tbox = open_tbox(ontology)
+    tbox = open_tbox(ontology, stated=_places_in(run))
     options = _label_options(encoding, mode, bare, de_instance, {"ontology": tbox.ontology_iri, "run": run.name})
     report = label_stage(
         scene,
@@ -132,6 +134,19 @@ def write_command(
     for line in _report_lines(report):
         notify(line)
     notify(f"written to {target}")
+
+
+def _places_in(run: Path) -> tuple[str, ...]:
+    """Return the IRI of the built-in ontology of places if a mapping or graph has it in its text."""
+    from usd2kg.ontology import PLACES_IRI  # noqa: PLC0415
+
+    try:
+        data = run.read_bytes()
+        text = gzip.decompress(data) if run.suffix == ".gz" else data
+    except (OSError, EOFError, zlib.error):
+        # Reading the classes says what is wrong with the file.
+        return ()
+    return (PLACES_IRI,) if PLACES_IRI.encode() in text else ()
 
 
 def _label_options(
@@ -186,9 +201,11 @@ def lint_command(
 ) -> None:
     """Find labels that are wrong, stale or contradictory. Exit code 1 if there are any."""
     from usd2kg.labels import lint_stage, read_prim_classes  # noqa: PLC0415 - loads OpenUSD, too slow for --help
+    from usd2kg.ontology import PLACES_IRI  # noqa: PLC0415
     from usd2kg.pipeline import open_tbox  # noqa: PLC0415
 
-    tbox = open_tbox(ontology)
+    # The built-in TBox of places has the classes of both.
+    tbox = open_tbox(ontology, stated=(PLACES_IRI,))
     lint = lint_stage(scene, tbox, read_prim_classes(run, tbox) if run is not None else None, reading.read_options())
     if json:
         findings = [asdict(finding) for finding in lint.findings]

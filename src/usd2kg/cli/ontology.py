@@ -204,7 +204,14 @@ def known_command(registry: _Registry = None, json: JsonOutput = False) -> None:
         print_json(entries)
         return
     rows = [
-        (o.name, o.version, str(len(o.documents) or "–"), str(listed.get(o.name, "–")), o.licence, o.title)
+        (
+            o.name,
+            o.version,
+            "built in" if o.built_in else str(len(o.documents) or "–"),
+            str(listed.get(o.name, "–")),
+            o.licence,
+            o.title,
+        )
         for o in ontologies
     ]
     emit(format_table(("name", "version", "documents", "aligned classes", "licence", "title"), rows))

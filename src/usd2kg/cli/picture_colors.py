@@ -25,9 +25,9 @@ def find_colors(source: Path, reading: "ReadOptions", mode: "ColorMode", options
     from usd2kg.relations import find_relations  # noqa: PLC0415
     from usd2kg.scene import read_scene  # noqa: PLC0415
 
-    tbox = open_tbox(options.ontology)
-    decisions = read_decisions(options.decisions, tbox) if options.decisions is not None else {}
     scene = read_scene(source, options=reading)
+    tbox = open_tbox(options.ontology, scene=scene)
+    decisions = read_decisions(options.decisions, tbox) if options.decisions is not None else {}
     suggestions = ground(scene, tbox, make_grounder("lexical"))
     grounding = apply_decisions(suggestions, decisions, scene, tbox)
     relations = find_relations(scene, tbox, grounding)

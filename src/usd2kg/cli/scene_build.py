@@ -42,17 +42,22 @@ class SceneBuild:
         self.annotation.graph_options()
 
     @contextmanager
-    def run(self, source: Path, tbox: "TBox", base: str | None) -> "Iterator[tuple[BuildResult, GrounderSession]]":
+    def run(
+        self, source: Path, tbox: "TBox | None", base: str | None
+    ) -> "Iterator[tuple[BuildResult, GrounderSession]]":
         """Build the graph of a scene; the grounder is open until the context ends.
+
+        Without a TBox, the built-in one that suits the scene is used.
 
         Raises:
             Usd2kgError: an input cannot be read, or an option is invalid.
         """
-        from usd2kg.pipeline import build  # noqa: PLC0415 - loads OpenUSD, too slow for --help
+        from usd2kg.pipeline import build, open_tbox  # noqa: PLC0415 - loads OpenUSD, too slow for --help
         from usd2kg.scene import read_scene  # noqa: PLC0415
 
         options = self.reading.read_options()
         scene = read_scene(source, options=options)
+        tbox = tbox or open_tbox(None, scene=scene)
         with open_session(self.grounding, scene, tbox, source, options, self.carry_over) as session:
             result = build(
                 scene,

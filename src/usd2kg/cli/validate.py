@@ -90,8 +90,8 @@ def _open_closure(store: "GraphStore", ontology: Path | None) -> "Closure | None
     from usd2kg.pipeline import open_tbox  # noqa: PLC0415
     from usd2kg.validation import imports_of, ontology_of  # noqa: PLC0415
 
-    tbox = open_tbox(ontology)
     stated = ontology_of(store)
+    tbox = open_tbox(ontology, stated=() if stated is None else (stated,))
     if stated is not None and stated != tbox.ontology_iri:
         if ontology is None:
             notify(f"ontology: the graph was built with <{stated}>; name its file with --ontology to check against it")

@@ -1,6 +1,6 @@
 """The two versions of a scene to compare, each a graph or a stage."""
 
-from collections.abc import Callable, Set
+from collections.abc import Callable, Iterable, Set
 from pathlib import Path
 from typing import NamedTuple
 
@@ -15,7 +15,7 @@ from usd2kg.graph.rdf_document import read_statements
 from usd2kg.grounding import ground
 from usd2kg.ontology import TBox
 from usd2kg.relations import ALL_KINDS, DEFAULT_KINDS, VIEWPOINT_KINDS, RelationOptions, find_relations
-from usd2kg.scene import ReadOptions, read_scene
+from usd2kg.scene import ReadOptions, Scene, read_scene
 
 __all__ = ["Version", "VersionOptions", "read_objects", "read_versions"]
 
@@ -51,11 +51,16 @@ def read_objects(path: Path, options: ReadOptions) -> tuple[ObjectState, ...]:
 
 
 def read_versions(
-    old: Path, new: Path, open_tbox: Callable[[], TBox], options: VersionOptions
+    old: Path, new: Path, open_tbox: Callable[[Scene, Iterable[str]], TBox], options: VersionOptions
 ) -> tuple[Version, Version]:
     """Return both versions; the graph of a stage is built with base, profile and annotations of the other graph.
 
-    `open_tbox` is called only if one of them is a stage.
+    Args:
+        old: the earlier version.
+        new: the later version.
+        open_tbox: returns the TBox for a stage, and for the classes that the other graph states; called only if one of
+            the versions is a stage.
+        options: how the graph of a stage is built.
 
     Raises:
         Usd2kgError: a file cannot be read.
@@ -65,13 +70,15 @@ def read_versions(
     style = style._replace(base=options.base or style.base or default_base(str(old)))
     if graphs.keys() == {old, new}:
         return graphs[old], graphs[new]
-    tbox = open_tbox()
-    before, after = (graphs.get(path) or _build(path, tbox, style, options) for path in (old, new))
+    scenes = {path: read_scene(path, options=options.reading) for path in (old, new) if path not in graphs}
+    stated = sorted({iri for version in graphs.values() for thing in version.objects for iri in thing.classes})
+    # Both stages are grounded in one TBox: other classes would be changes.
+    tbox = open_tbox(next(iter(scenes.values())), stated)
+    before, after = (graphs.get(path) or _build(path, scenes[path], tbox, style, options) for path in (old, new))
     return before, after
 
 
-def _build(path: Path, tbox: TBox, style: GraphStyle, options: VersionOptions) -> Version:
-    scene = read_scene(path, options=options.reading)
+def _build(path: Path, scene: Scene, tbox: TBox, style: GraphStyle, options: VersionOptions) -> Version:
     grounding = ground(scene, tbox) if options.is_grounded else ground(scene, tbox, "dictionary", paths=())
     wanted = {*DEFAULT_KINDS, *options.kinds} - {*VIEWPOINT_KINDS}
     kinds = tuple(kind for kind in ALL_KINDS if kind in wanted)

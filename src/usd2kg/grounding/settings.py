@@ -6,9 +6,11 @@ from usd2kg.knowledge import read_settings
 
 __all__ = [
     "BASELINES",
+    "BUILT_IN_CHOICE",
     "PLATT_SCALING",
     "QUEUE",
     "BaselineSettings",
+    "BuiltInChoiceSettings",
     "PlattScalingSettings",
     "QueueSettings",
 ]
@@ -20,6 +22,15 @@ class BaselineSettings:
 
     max_candidates: int
     smallest_side_m: float
+
+
+@dataclass(frozen=True, slots=True)
+class BuiltInChoiceSettings:
+    """Settings of the choice of a built-in TBox."""
+
+    min_share: float
+    min_names: int
+    named_examples: int
 
 
 @dataclass(frozen=True, slots=True)
@@ -37,5 +48,6 @@ class PlattScalingSettings:
 
 
 BASELINES = read_settings("grounding", "baselines", BaselineSettings)
+BUILT_IN_CHOICE = read_settings("grounding", "built_in_choice", BuiltInChoiceSettings)
 QUEUE = read_settings("grounding", "queue", QueueSettings)
 PLATT_SCALING = read_settings("grounding", "platt_scaling", PlattScalingSettings)

@@ -10,13 +10,14 @@ if TYPE_CHECKING:
     from usd2kg.ontology.fetch import fetch_ontology
     from usd2kg.ontology.known_ontologies import KnownOntology, read_registry
     from usd2kg.ontology.linearize import linearize_flat, linearize_tree
-    from usd2kg.ontology.load import load_home_tbox, load_tbox
+    from usd2kg.ontology.load import PLACES_IRI, load_home_tbox, load_places_tbox, load_tbox
     from usd2kg.ontology.model import ClassIRI, OntologyClass, OntologyNote, TBox, local_name
     from usd2kg.ontology.owl_write import write_functional_syntax
     from usd2kg.ontology.prefixes import compact_iri, expand_curie
 
 __all__ = [
     "LABELS",
+    "PLACES_IRI",
     "ClassIRI",
     "Closure",
     "KnownOntology",
@@ -29,6 +30,7 @@ __all__ = [
     "linearize_flat",
     "linearize_tree",
     "load_home_tbox",
+    "load_places_tbox",
     "load_tbox",
     "local_name",
     "read_closure",
@@ -41,6 +43,7 @@ __getattr__ = lazy_names(
     __name__,
     {
         "LABELS": "class_axioms",
+        "PLACES_IRI": "load",
         "ClassIRI": "model",
         "Closure": "closure",
         "KnownOntology": "known_ontologies",
@@ -53,6 +56,7 @@ __getattr__ = lazy_names(
         "linearize_flat": "linearize",
         "linearize_tree": "linearize",
         "load_home_tbox": "load",
+        "load_places_tbox": "load",
         "load_tbox": "load",
         "local_name": "model",
         "read_closure": "closure",

@@ -11,7 +11,7 @@ import pyoxigraph as ox
 from usd2kg.knowledge import data_file
 from usd2kg.ontology.catalog import find_document
 from usd2kg.ontology.documents import Document, close_imports, parse_document, parse_import, read_triples
-from usd2kg.ontology.load import HOME
+from usd2kg.ontology.load import BUILT_IN
 from usd2kg.ontology.model import TBox
 from usd2kg.ontology.namespaces import OWL, RDF
 
@@ -39,8 +39,8 @@ def read_closure(tbox: TBox, also: Iterable[str] = ()) -> Closure:
     Raises:
         OntologyError: a document can no longer be read.
     """
-    if tbox.source == HOME:
-        with as_file(data_file("home.ttl")) as path:
+    if tbox.source in BUILT_IN:
+        with as_file(data_file(BUILT_IN[tbox.source])) as path:
             return _read(path, also)
     return _read(Path(tbox.source), also)
 

@@ -15,6 +15,7 @@ from urllib.parse import urlsplit
 
 from usd2kg.errors import OntologyError, OutputError
 from usd2kg.files import write_whole
+from usd2kg.knowledge import read_bytes
 from usd2kg.ontology.catalog import CATALOG, format_catalog
 from usd2kg.ontology.known_ontologies import KnownDocument, KnownOntology
 from usd2kg.ontology.limits import DOWNLOAD
@@ -33,7 +34,7 @@ def fetch_ontology(
     accepts_changed: bool = False,
     report: Callable[[str], None] = lambda line: None,
 ) -> Path:
-    """Download the documents of an ontology with a catalog, and return the file to load.
+    """Download the documents of an ontology with a catalog, and return the file to load; write a built-in one.
 
     Documents that exist with the right hash are not downloaded. All are downloaded before any is written, so that the
     folder never holds half of a new version.
@@ -49,6 +50,8 @@ def fetch_ontology(
             differs from the registry.
         OutputError: the folder cannot be written to.
     """
+    if ontology.built_in:
+        return _write_built_in(ontology, folder, report)
     if not ontology.documents:
         raise OntologyError(
             f"ontology {ontology.name!r} cannot be fetched by name; download it from {ontology.website}"
@@ -62,15 +65,28 @@ def fetch_ontology(
         fetched[path] = _fetch(document, accepts_changed=accepts_changed)
         length, source = len(fetched[path]), shown_address(document.address)
         report(f"{path}: {length:,} bytes from {source}, sha256 {_digest(fetched[path])}")
-    try:
-        folder.mkdir(parents=True, exist_ok=True)
-    except OSError as error:
-        raise OutputError(f"{folder}: cannot be created ({error.strerror}); choose another folder") from error
+    _make_folder(folder)
     for path, data in fetched.items():
         write_whole(path, data)
     catalog = format_catalog({document.iri: document.file for document in ontology.documents})
     write_whole(folder / CATALOG, catalog.encode())
     return folder / ontology.documents[0].file
+
+
+def _write_built_in(ontology: KnownOntology, folder: Path, report: Callable[[str], None]) -> Path:
+    data = read_bytes(ontology.built_in)
+    _make_folder(folder)
+    path = folder / ontology.built_in
+    write_whole(path, data)
+    report(f"{path}: {len(data):,} bytes, built in")
+    return path
+
+
+def _make_folder(folder: Path) -> None:
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+    except OSError as error:
+        raise OutputError(f"{folder}: cannot be created ({error.strerror}); choose another folder") from error
 
 
 def _fetch(document: KnownDocument, *, accepts_changed: bool) -> bytes:

@@ -10,6 +10,7 @@ from typing import Any
 from usd2kg.errors import OntologyError
 from usd2kg.knowledge import data_file
 from usd2kg.ontology.catalog import CATALOG
+from usd2kg.ontology.load import BUILT_IN
 
 __all__ = ["KnownDocument", "KnownOntology", "read_registry"]
 
@@ -42,7 +43,9 @@ class KnownOntology:
     documents: tuple[KnownDocument, ...]
     """The ontology itself first, then what it imports; empty if it cannot be fetched by name."""
     website: str = ""
-    """Where to get an ontology without documents."""
+    """Where to get an ontology without documents that is not built in."""
+    built_in: str = ""
+    """Name of the data file of a built-in ontology."""
 
 
 def read_registry(path: Path | None = None) -> Mapping[str, KnownOntology]:
@@ -71,10 +74,10 @@ def read_registry(path: Path | None = None) -> Mapping[str, KnownOntology]:
 def _ontology(source: str, entry: Mapping[str, Any]) -> KnownOntology:
     name, title, version, licence = (str(entry[key]) for key in ("name", "title", "version", "licence"))
     documents = tuple(_document(source, document) for document in entry.get("document", ()))
-    website = str(entry.get("website", ""))
-    if not documents and not website:
+    website, built_in = (str(entry.get(key, "")) for key in ("website", "built_in"))
+    if not documents and not website and built_in not in BUILT_IN.values():
         raise OntologyError(f"{source}: the ontology {name!r} has no [[ontology.document]] and no website; add one")
-    return KnownOntology(name, title, version, licence, documents, website)
+    return KnownOntology(name, title, version, licence, documents, website, built_in)
 
 
 def _document(source: str, entry: Mapping[str, Any]) -> KnownDocument:

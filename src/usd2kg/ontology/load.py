@@ -20,10 +20,14 @@ from usd2kg.ontology.scope import default_scope, isolated_classes, nearest_paren
 from usd2kg.ontology.wikidata import EQUIVALENT_CLASS, item_in, pick_items
 from usd2kg.tracing import traced
 
-__all__ = ["HOME", "load_home_tbox", "load_tbox"]
+__all__ = ["BUILT_IN", "HOME", "PLACES", "PLACES_IRI", "load_home_tbox", "load_places_tbox", "load_tbox"]
 
 HOME = "built-in home TBox"
-"""`TBox.source` of the built-in TBox."""
+PLACES = "built-in places TBox"
+BUILT_IN = {HOME: "home.ttl", PLACES: "places.ttl"}
+"""`TBox.source` of a built-in TBox → data file."""
+PLACES_IRI = "https://w3id.org/usd2kg/places"
+"""The built-in ontology of places; its classes have IRIs that begin with this."""
 _PREFIX_NAME = re.compile(r"[A-Za-z][\w-]*", re.ASCII)
 _NO_OTHER: frozenset[str] = frozenset()
 _SOMA_HOME = "http://www.ease-crc.org/ont/SOMA-HOME.owl"
@@ -37,13 +41,16 @@ def load_tbox(source: Path | str, *, roots: Iterable[str] | None = None, classes
 
     Args:
         source: an ontology in functional syntax, RDF/XML, OWL/XML, Turtle, N-Triples, JSON-LD or Manchester
-            syntax, detected by content. Imports are resolved by the catalog or in the folder of the file.
+            syntax, detected by content. Imports are resolved by the catalog or in the folder of the file. `home` and
+            `places` are the built-in TBoxes, unless a file has that name.
         roots: IRIs or CURIEs; the scope is these classes and all below them.
         classes: IRIs or CURIEs; the scope is exactly these classes.
 
     Raises:
         OntologyError: the file cannot be read, or no class is in scope.
     """
+    if classes is None and str(source) in _LOADERS and not Path(source).is_file():
+        return _LOADERS[str(source)](roots=roots)
     return _load(Path(source), str(source), roots, classes)
 
 
@@ -52,14 +59,25 @@ def load_home_tbox(*, roots: Iterable[str] | None = None) -> TBox:
 
     With `roots`, only these classes and their subclasses. The result is cached.
     """
-    return _load_home(None if roots is None else tuple(roots))
+    # The classes are those of SOMA-HOME, so a graph over them imports SOMA-HOME.
+    return replace(_load_built_in(HOME, None if roots is None else tuple(roots)), ontology_iri=_SOMA_HOME)
+
+
+def load_places_tbox(*, roots: Iterable[str] | None = None) -> TBox:
+    """Return the built-in TBox for offices, shops, warehouses, hospitals, workshops, laboratories and streets.
+
+    It extends the home TBox. With `roots`, only these classes and their subclasses. The result is cached.
+    """
+    return _load_built_in(PLACES, None if roots is None else tuple(roots))
+
+
+_LOADERS = {"home": load_home_tbox, "places": load_places_tbox}
 
 
 @lru_cache(maxsize=4)
-def _load_home(roots: tuple[str, ...] | None) -> TBox:
-    with as_file(data_file("home.ttl")) as path:
-        # The classes are those of SOMA-HOME, so a graph over them imports SOMA-HOME.
-        return replace(_load(path, HOME, roots, None), ontology_iri=_SOMA_HOME)
+def _load_built_in(name: str, roots: tuple[str, ...] | None) -> TBox:
+    with as_file(data_file(BUILT_IN[name])) as path:
+        return _load(path, name, roots, None)
 
 
 def _load(path: Path, name: str, roots: Iterable[str] | None, classes: Iterable[str] | None) -> TBox:

@@ -7,6 +7,7 @@ __all__ = [
     "KNOWROB",
     "OBO",
     "OWL",
+    "PLACE",
     "PROV",
     "RDF",
     "RDFS",
@@ -33,6 +34,8 @@ DUL = "http://www.ontologydesignpatterns.org/ont/dul/DUL.owl#"
 USD = "https://ease-crc.org/ont/USD.owl#"
 U2K = "https://w3id.org/usd2kg#"
 """The usd2kg vocabulary, defined in graph/vocabulary.ttl."""
+PLACE = "https://w3id.org/usd2kg/places#"
+"""Classes of the built-in TBox of places beyond homes."""
 CONCEPT = "https://w3id.org/usd2kg/concept/"
 """Concepts that WordNet lacks, by noun: `13_amp_socket`."""
 WORDNET = "http://wordnet-rdf.princeton.edu/id/"

@@ -17,6 +17,7 @@ PREFIXES = {
     "sssom": namespaces.SSSOM,
     "skos": namespaces.SKOS,
     "obo": namespaces.OBO,
+    "place": namespaces.PLACE,
 }
 
 

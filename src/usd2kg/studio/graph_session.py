@@ -94,8 +94,8 @@ def open_graph_session(project: Project) -> GraphSession:
     given = next((name for name in ("mapping", "alignment", "base") if getattr(sources, name) is not None), None)
     if given is not None:
         raise GroundingError(f"--{given}: {sources.scene} is a graph, which states its own; open the stage to use it")
-    tbox = open_tbox(sources.ontology)
     read = read_graph_scene(sources.scene)
+    tbox = open_tbox(sources.ontology, stated=read.imports)
     unknown = next((p for p in read.grounding.predictions if p.class_iri and p.class_iri not in tbox.by_iri), None)
     if unknown is not None:
         ontology = read.grounding.ontology or "another ontology"

@@ -263,8 +263,8 @@ def open_stage_session(project: Project) -> StudioSession:
         Usd2kgError: a source cannot be read.
     """
     sources = project.sources
-    tbox = open_tbox(sources.ontology)
     scene = read_scene(sources.scene, options=sources.reading)
+    tbox = open_tbox(sources.ontology, scene=scene)
     if sources.mapping is not None:
         grounding = _read_mapping(sources.mapping, scene, tbox)
     else:

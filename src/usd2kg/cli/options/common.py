@@ -11,7 +11,12 @@ __all__ = ["AllFindings", "BaseIri", "JsonOutput", "OntologyFile", "ReportFolder
 
 SceneFile = Annotated[Path, Argument(metavar="SCENE", help="USD stage, or a file that usd2kg convert reads.")]
 OntologyFile = Annotated[
-    Path | None, Option("--ontology", help="OWL file with the candidate classes; default: the built-in home ontology.")
+    Path | None,
+    Option(
+        "--ontology",
+        metavar="FILE|home|places",
+        help="OWL file with the candidate classes, or a built-in ontology; default: the one that suits the scene.",
+    ),
 ]
 BaseIri = Annotated[
     str | None,

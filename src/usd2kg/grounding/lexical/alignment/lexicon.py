@@ -124,21 +124,25 @@ def home_classes_of(tbox: TBox, synonyms: Mapping[ClassIRI, tuple[str, ...]]) ->
 def _own_terms(tbox: TBox, taxonomy: Taxonomy, synonyms: Mapping[ClassIRI, tuple[str, ...]]) -> dict[str, Term]:
     """Return term without spaces → the class it names, by the labels and synonyms of the classes."""
     depths = tbox.depths
+    classes = sorted(physical_classes(tbox), key=lambda cls: (depths[cls.iri], cls.iri))
     terms: dict[str, Term] = {}
-    for cls in sorted(physical_classes(tbox), key=lambda cls: (depths[cls.iri], cls.iri)):
-        for text, kind in _texts_of(cls, synonyms.get(cls.iri, ())):
-            label = normalise_label(text, taxonomy)
-            keep_best(terms, Term(cls.iri, label, kind))
+    for cls in classes:
+        for text, kind in _texts_of(cls):
+            keep_best(terms, Term(cls.iri, normalise_label(text, taxonomy), kind))
             if residue := residue_of(text, taxonomy):
                 # “Other furniture” is the class of furniture, unless another class has that label.
                 keep_best(terms, Term(cls.iri, residue, TermKind.SYNONYM))
+    # What an ontology calls its classes precedes what the home vocabulary counts among a class with the same IRI.
+    for cls in classes:
+        for text in synonyms.get(cls.iri, ()):
+            keep_best(terms, Term(cls.iri, normalise_label(text, taxonomy), TermKind.SYNONYM))
     return terms
 
 
-def _texts_of(cls: OntologyClass, synonyms: tuple[str, ...]) -> Iterator[tuple[str, TermKind]]:
+def _texts_of(cls: OntologyClass) -> Iterator[tuple[str, TermKind]]:
     yield cls.label, TermKind.LABEL
     yield cls.local_name, TermKind.LABEL
-    for text in (*cls.alt_labels, *synonyms):
+    for text in cls.alt_labels:
         yield text, TermKind.SYNONYM
 
 
