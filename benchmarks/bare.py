@@ -8,17 +8,16 @@ __all__ = ["bare_object", "bare_scene"]
 
 
 def bare_object(
-    path: str, size: tuple[float, float, float], at: tuple[float, float, float] = (0.0, 0.0, 0.0)
+    path: str, size: tuple[float, float, float] | None = None, at: tuple[float, float, float] = (0.0, 0.0, 0.0)
 ) -> SceneObject:
     """Return an object without other evidence.
 
     Args:
         path: prim path; its last part is the name.
-        size: extents in metres along x, y and z.
+        size: extents in metres along x, y and z; None for an object without geometry.
         at: lower corner of the box in metres.
     """
-    (x, y, z), (width, depth, height) = at, size
-    box = Box(at, (x + width, y + depth, z + height))
+    box = None if size is None else Box(at, (at[0] + size[0], at[1] + size[1], at[2] + size[2]))
     return SceneObject(
         prim_path=path,
         name=path.rpartition("/")[2],

@@ -435,8 +435,12 @@ class TestOntology:
         assert message in done.err
 
     def test_lists_known_ontologies(self, run: Run):
-        assert run("ontology", "known").out.splitlines()[1].startswith("soma-home")
-        assert json.loads(run("ontology", "known", "--json").out)[0]["documents"][0]["file"] == "SOMA-HOME.owl"
+        assert [line.split()[0] for line in run("ontology", "known").out.splitlines()[1:4]] == [
+            "home",
+            "places",
+            "soma-home",
+        ]
+        assert json.loads(run("ontology", "known", "--json").out)[2]["documents"][0]["file"] == "SOMA-HOME.owl"
 
     def test_known_ontologies_have_the_number_of_classes_with_a_shipped_alignment(self, run: Run):
         entries = {entry["name"]: entry for entry in json.loads(run("ontology", "known", "--json").out)}
@@ -448,7 +452,7 @@ class TestOntology:
     def test_rejects_an_unknown_ontology(self, run: Run):
         done = run("ontology", "fetch", "nope")
         assert (done.code, done.out) == (2, "")
-        assert "ontology 'nope' is unknown; expected one of soma-home" in done.err
+        assert "ontology 'nope' is unknown; expected one of home, places, soma-home" in done.err
 
 
 class TestDemo:

@@ -179,9 +179,17 @@ def test_rejects_file_names_with_a_path(tmp_path: Path, file: str):
 
 def test_built_in_registry_has_all_hashes():
     for ontology in read_registry().values():
-        assert bool(ontology.documents) != bool(ontology.website)
+        assert [bool(ontology.documents), bool(ontology.website), bool(ontology.built_in)].count(True) == 1
         assert all(len(document.sha256) == 64 for document in ontology.documents)
         assert all(document.address.startswith(("https://", "http://")) for document in ontology.documents)
+
+
+@pytest.mark.parametrize("name", ["home", "places"])
+def test_a_built_in_ontology_is_written_without_network(tmp_path: Path, name: str):
+    lines: list[str] = []
+    path = fetch_ontology(read_registry()[name], tmp_path / "new", report=lines.append)
+    assert lines == [f"{path}: {path.stat().st_size:,} bytes, built in"]
+    assert {cls.iri for cls in load_tbox(path).classes} == {cls.iri for cls in load_tbox(name).classes}
 
 
 def test_built_in_registry_matches_soma():

@@ -15,6 +15,7 @@ from typing import Any, NamedTuple, get_args, get_origin
 import typer
 from typer.models import OptionInfo
 
+from usd2kg.cli.options.common import BUILT_IN_ONTOLOGIES
 from usd2kg.cli.options.stores import FOLDER_OR_URL
 from usd2kg.errors import Usd2kgError
 
@@ -226,6 +227,11 @@ def _as_arguments(file: Path, option: CommandOption, value: Any) -> Iterator[str
         if isinstance(one, bool) or not isinstance(one, str | int | float):
             expected = "a text or a number" + (", or a list of them" if option.is_repeatable else "")
             raise Usd2kgError(f"{file}: {option.key} is {value!r}; expected {expected}")
-        is_path = option.is_path and "://" not in str(one)
+        is_path = option.is_path and "://" not in str(one) and not _is_built_in(file, option, str(one))
         # With “=”, a value may begin with a dash.
         yield f"{name}={file.parent / str(one) if is_path else one}"
+
+
+def _is_built_in(file: Path, option: CommandOption, value: str) -> bool:
+    """Return whether a value names a built-in ontology, and no file beside the project file has that name."""
+    return option.key == "ontology" and value in BUILT_IN_ONTOLOGIES and not (file.parent / value).is_file()

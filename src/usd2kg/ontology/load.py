@@ -59,8 +59,7 @@ def load_home_tbox(*, roots: Iterable[str] | None = None) -> TBox:
 
     With `roots`, only these classes and their subclasses. The result is cached.
     """
-    # The classes are those of SOMA-HOME, so a graph over them imports SOMA-HOME.
-    return replace(_load_built_in(HOME, None if roots is None else tuple(roots)), ontology_iri=_SOMA_HOME)
+    return _load_built_in(HOME, None if roots is None else tuple(roots))
 
 
 def load_places_tbox(*, roots: Iterable[str] | None = None) -> TBox:
@@ -77,7 +76,9 @@ _LOADERS = {"home": load_home_tbox, "places": load_places_tbox}
 @lru_cache(maxsize=4)
 def _load_built_in(name: str, roots: tuple[str, ...] | None) -> TBox:
     with as_file(data_file(BUILT_IN[name])) as path:
-        return _load(path, name, roots, None)
+        tbox = _load(path, name, roots, None)
+    # The classes of the home TBox are those of SOMA-HOME, so a graph over them imports SOMA-HOME.
+    return replace(tbox, ontology_iri=_SOMA_HOME) if name == HOME else tbox
 
 
 def _load(path: Path, name: str, roots: Iterable[str] | None, classes: Iterable[str] | None) -> TBox:

@@ -7,14 +7,26 @@ from typer import Argument, Option
 
 from usd2kg.cli.limits import FINDINGS_PER_RULE
 
-__all__ = ["AllFindings", "BaseIri", "JsonOutput", "OntologyFile", "ReportFolder", "SceneFile", "TextFile"]
+__all__ = [
+    "BUILT_IN_ONTOLOGIES",
+    "AllFindings",
+    "BaseIri",
+    "JsonOutput",
+    "OntologyFile",
+    "ReportFolder",
+    "SceneFile",
+    "TextFile",
+]
+
+BUILT_IN_ONTOLOGIES = ("home", "places")
+"""Values of --ontology that are not files."""
 
 SceneFile = Annotated[Path, Argument(metavar="SCENE", help="USD stage, or a file that usd2kg convert reads.")]
 OntologyFile = Annotated[
     Path | None,
     Option(
         "--ontology",
-        metavar="FILE|home|places",
+        metavar="|".join(("FILE", *BUILT_IN_ONTOLOGIES)),
         help="OWL file with the candidate classes, or a built-in ontology; default: the one that suits the scene.",
     ),
 ]

@@ -1,0 +1,101 @@
+"""The built-in TBoxes: which one a scene gets, and what that of places holds."""
+
+from collections import Counter
+
+import pytest
+
+from tests.conftest import shared_file
+from usd2kg import build
+from usd2kg.demo import demo_scene
+from usd2kg.grounding import ObjectView, make_grounder
+from usd2kg.grounding.built_in_choice import choose_built_in_tbox, count_place_votes
+from usd2kg.ontology import load_home_tbox, load_places_tbox, load_tbox, read_closure
+from usd2kg.pipeline import open_tbox
+from usd2kg.scene import read_scene
+
+PLACES = load_places_tbox()
+WORKPLACE = ["Forklift_01", "pallet_rack_3", "SM_EuroPallet", "shelf_a", "cardboard_box", "fire_extinguisher"]
+HOME = ["sofa", "coffee_table", "book_3", "lamp", "potted_plant", "tv", "bed_01", "kitchen_cabinet", "wheelchair"]
+
+
+def test_one_odd_thing_in_a_home_decides_nothing():
+    votes = count_place_votes(HOME)
+    assert (votes.workplaces, votes.is_workplace) == (("wheelchair",), False)
+
+
+def test_a_fifth_of_the_names_decides():
+    votes = count_place_votes([*WORKPLACE, *HOME])
+    # The shelf and the box may be in a home.
+    assert votes.workplaces == ("euro pallet", "fire extinguisher", "forklift", "pallet rack", "wheelchair")
+    assert votes.homes == 10
+    assert votes.is_workplace
+
+
+def test_copies_of_a_name_count_once():
+    assert count_place_votes([f"Pallet_{number}" for number in range(50)]).workplaces == ("pallet",)
+
+
+def test_the_demo_kitchen_is_a_home():
+    assert choose_built_in_tbox(read_scene(demo_scene())) is load_home_tbox()
+
+
+@pytest.mark.parametrize(
+    ("scene", "is_workplace"),
+    [("aws_robomaker/small_warehouse.usdc", True), ("aws_robomaker/small_house.usdc", False)],
+)
+def test_real_scenes(scene: str, is_workplace: bool):
+    tbox = choose_built_in_tbox(read_scene(shared_file(f"scenes/{scene}")))
+    assert (tbox.source == PLACES.source) == is_workplace
+    assert all("--ontology home" in note.message for note in tbox.notes)
+
+
+def test_a_graph_keeps_the_ontology_that_it_states():
+    assert open_tbox(None, stated=["https://w3id.org/usd2kg/places"]) is PLACES
+    assert open_tbox(None, stated=["https://w3id.org/usd2kg/places#Forklift"]) is PLACES
+    assert open_tbox(None, stated=["http://www.ease-crc.org/ont/SOMA-HOME.owl"]) is load_home_tbox()
+
+
+def test_the_tbox_of_places_extends_that_of_homes():
+    home = load_home_tbox()
+    for cls in home.classes:
+        assert PLACES.by_iri[cls.iri].parents == cls.parents
+        assert PLACES.by_iri[cls.iri].label == cls.label
+
+
+def test_local_names_and_labels_are_unique():
+    for names in ([cls.local_name for cls in PLACES.classes], [cls.label for cls in PLACES.classes]):
+        assert [name for name, count in Counter(names).items() if count > 1] == []
+
+
+def test_each_class_of_places_is_described():
+    assert all(cls.comment.endswith(".") for cls in PLACES.classes)
+
+
+def test_labels_and_synonyms_mean_their_class():
+    views = [
+        (f"/{cls.local_name}/{number}", ObjectView(name=name.replace(" ", "_")))
+        for cls in PLACES.classes
+        if "usd2kg/places#" in cls.iri
+        for number, name in enumerate((cls.label, *cls.alt_labels))
+    ]
+    found = {p.prim_path: p.class_iri for p in make_grounder("lexical").ground_views(views, PLACES)}
+    wrong = [view.name for path, view in views if PLACES.by_iri[found[path]].local_name != path.split("/")[1]]
+    assert len(wrong) <= 0.02 * len(views), wrong
+
+
+def test_the_name_of_a_built_in_tbox_is_an_ontology(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    assert load_tbox("places") is PLACES
+    assert load_tbox("home", roots=["soma:Cup"]).classes[0].label == "cup"
+    # A folder of that name does not hide it.
+    (tmp_path / "places").mkdir()
+    assert load_tbox("places") is PLACES
+
+
+def test_a_self_contained_graph_has_the_classes_of_places():
+    subjects = {str(triple.subject) for triple in read_closure(PLACES).triples}
+    assert "<https://w3id.org/usd2kg/places#Forklift>" in subjects
+
+
+def test_build_uses_the_named_tbox():
+    assert build(demo_scene(), "places").tbox is PLACES
