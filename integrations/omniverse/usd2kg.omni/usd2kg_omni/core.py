@@ -87,10 +87,12 @@ class GroundedStage:
     def summary(self) -> str:
         """One line for the user."""
         classes = Counter(p.class_iri for p in self.objects.grounding.predictions if p.class_iri is not None)
-        reasons = (("kept", "keep their own labels"), ("left out", "left out"))
-        counts = [f"{self.report.counts[outcome]} {text}" for outcome, text in reasons if self.report.counts[outcome]]
+        counts = self.report.counts
+        parts = [f"{self.labelled} labelled"]
+        parts += [f"{counts['kept']} keep their own labels"] if counts["kept"] else []
+        parts += [f"{counts['left out']} left out"] if counts["left out"] else []
         found = f"{len(self.objects.scene.objects)} objects of {len(classes)} classes"
-        return f"{found}: {', '.join([f'{self.labelled} labelled', *counts])}"
+        return f"{found}: {', '.join(parts)}"
 
 
 def ground_stage(
