@@ -24,8 +24,6 @@ if TYPE_CHECKING:
 
 __all__ = ["app"]
 
-_ENCODINGS = {"semantics": "UsdSemantics", "isaac": "Isaac", "multiverse": "Multiverse"}
-
 
 class _DefaultsToWrite(TyperGroup):
     """A command group whose default command is `write`: `usd2kg label SCENE RUN`."""
@@ -152,15 +150,12 @@ def _places_in(run: Path) -> tuple[str, ...]:
 def _label_options(
     encoding: str, mode: str, is_bare: bool, de_instances: bool, provenance: dict[str, str]
 ) -> "LabelOptions":
-    from usd2kg.labels import LABEL_MODES, LabelOptions  # noqa: PLC0415
+    from usd2kg.labels import LABEL_MODES, LabelOptions, parse_encodings  # noqa: PLC0415
 
-    wanted = [name.strip().lower() for name in encoding.split(",") if name.strip()]
-    if not wanted or not _ENCODINGS.keys() >= set(wanted):
-        raise OutputError(f"--encoding {encoding}: expected a comma-separated list of {', '.join(_ENCODINGS)}")
+    encodings = parse_encodings(encoding, "--encoding")
     chosen = next((known for known in LABEL_MODES if known == mode), None)
     if chosen is None:
         raise OutputError(f"--mode {mode}: expected one of {', '.join(LABEL_MODES)}")
-    encodings: Any = tuple(_ENCODINGS[name] for name in dict.fromkeys(wanted))
     return LabelOptions(encodings, chosen, is_bare, de_instances, provenance)
 
 

@@ -1,18 +1,22 @@
-"""label_stage: write grounded classes as labels over a scene."""
+"""label_stage, label_session: write grounded classes as labels over a scene, or to an open stage."""
 
 from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
 
-from pxr import Usd
+from pxr import Sdf, Usd
 
+from usd2kg.labels.author import author_labels
 from usd2kg.labels.class_labels import label_maker
 from usd2kg.labels.layer import write_labels
 from usd2kg.labels.model import ClassLabel, LabelOptions, LabelOutcome, LabelReport
 from usd2kg.labels.prim_classes import PrimClass, PrimClasses
 from usd2kg.ontology import ClassIRI, TBox
+from usd2kg.scene.session_layer import add_to_session, remove_from_session
 
-__all__ = ["label_stage"]
+__all__ = ["label_session", "label_stage", "remove_session_labels"]
+
+_CONTENT = "labels"
 
 
 def label_stage(
@@ -46,7 +50,43 @@ def label_stage(
     make = label_maker(tbox, style, has_ancestors=has_ancestors)
     labels, left_out = _make_labels(classes, make, min_confidence)
     chosen = options or LabelOptions(provenance={"ontology": tbox.ontology_iri})
-    written = write_labels(scene, labels, output, chosen)
+    return _complete_report(write_labels(scene, labels, output, chosen), left_out)
+
+
+def label_session(
+    stage: Usd.Stage,
+    classes: PrimClasses,
+    tbox: TBox,
+    *,
+    options: LabelOptions | None = None,
+    style: str = "local",
+    has_ancestors: bool = False,
+    min_confidence: float = 0.0,
+) -> LabelReport:
+    """Label the prims of an open stage in its session layer; return the outcome for each prim.
+
+    Earlier labels of this function are replaced. No other layer changes, and no file is written. The arguments are
+    those of `label_stage`.
+
+    Raises:
+        OutputError: the stage has no session layer, or the style is unknown.
+    """
+    make = label_maker(tbox, style, has_ancestors=has_ancestors)
+    labels, left_out = _make_labels(classes, make, min_confidence)
+    # Labels of an earlier call would count as existing ones.
+    remove_session_labels(stage)
+    opinions = Sdf.Layer.CreateAnonymous()
+    written = author_labels(stage, labels, opinions, options or LabelOptions())
+    add_to_session(stage, opinions, _CONTENT)
+    return _complete_report(written, left_out)
+
+
+def remove_session_labels(stage: Usd.Stage) -> bool:
+    """Remove the labels that `label_session` wrote; return whether there were any."""
+    return remove_from_session(stage, _CONTENT)
+
+
+def _complete_report(written: LabelReport, left_out: list[LabelOutcome]) -> LabelReport:
     outcomes = sorted((*left_out, *written.outcomes), key=lambda entry: entry.prim_path.split("/"))
     return LabelReport(tuple(outcomes), written.de_instanced)
 
