@@ -8,8 +8,10 @@ import pytest
 from tests.cli.conftest import Run
 from usd2kg.cli.app import app
 from usd2kg.cli.options.bundles import OptionBundle
+from usd2kg.cli.options.common import BUILT_IN_ONTOLOGIES
 from usd2kg.cli.project_file import ALLOWED_ANYWHERE, CommandOption, read_project_options, walk_options
 from usd2kg.errors import Usd2kgError
+from usd2kg.ontology import load_tbox
 from usd2kg.query import load_graph
 
 OPTIONS: dict[str, CommandOption] = {option.key: option for _, options in walk_options(app) for option in options}
@@ -143,6 +145,14 @@ class TestWhere:
         assert ALLOWED_ANYWHERE.isdisjoint({name.replace("_", "-") for name in outputs} | {"output", "completions"})
         for key in ALLOWED_ANYWHERE:
             assert "to write" not in OPTIONS[key].help, key
+
+    @pytest.mark.parametrize("name", BUILT_IN_ONTOLOGIES)
+    def test_a_built_in_ontology_is_a_name_and_not_a_file_beside_the_project(self, name: str):
+        folder = write(f'ontology = "{name}"').parent
+        assert arguments("build", "s.usd") == ["build", f"--ontology={name}", "s.usd"]
+        assert load_tbox(name).source.startswith("built-in")
+        (folder / name).touch()
+        assert arguments("build", "s.usd") == ["build", f"--ontology={folder / name}", "s.usd"]
 
     def test_help_needs_no_valid_file(self):
         write("nonsense = [")
