@@ -11,13 +11,14 @@ from usd2kg.grounding import Decision, DecisionOrigin, Grounder, Grounding, Nami
 from usd2kg.ontology import ClassIRI, TBox, load_home_tbox, load_tbox, read_closure
 from usd2kg.progress import show_steps
 from usd2kg.relations import RelationOptions, find_relations
+from usd2kg.rich_display import RichDisplay
 from usd2kg.scene import ReadOptions, Scene, read_scene
 
 __all__ = ["BuildResult", "build", "open_tbox"]
 
 
 @dataclass(frozen=True)
-class BuildResult:
+class BuildResult(RichDisplay):
     """The result of each step."""
 
     scene: Scene

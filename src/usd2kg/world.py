@@ -24,6 +24,7 @@ from usd2kg.pipeline import BuildResult, build
 from usd2kg.query import Answer, GraphStore
 from usd2kg.query.body_table import Body
 from usd2kg.query.lookup import SceneFacts
+from usd2kg.rich_display import RichDisplay
 from usd2kg.scene import Scene
 from usd2kg.stores import is_store, open_graph, open_store
 
@@ -52,7 +53,7 @@ class ObjectRow(NamedTuple):
 
 
 @dataclass(frozen=True)
-class World:
+class World(RichDisplay):
     """The graph of a scene, built or loaded, with its questions."""
 
     source: str
