@@ -2,6 +2,7 @@
 
 from pathlib import Path
 
+import pandas
 import pytest
 
 import usd2kg
@@ -59,7 +60,6 @@ def test_objects_are_rows_with_sizes_in_metres(stage):
 
 
 def test_objects_become_a_data_frame(stage):
-    pandas = pytest.importorskip("pandas")
     frame = pandas.DataFrame(usd2kg.open(stage).objects)
     assert list(frame.columns) == list(ObjectRow._fields)
     assert frame.set_index("name").size_z.round(2).to_dict() == {"cup": 0.1, "table": 0.8}

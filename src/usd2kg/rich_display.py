@@ -15,9 +15,10 @@ class RichDisplay:
         html: str = _display().to_html(self)
         return html
 
-    def _repr_pretty_(self, printer: Any, is_cycle: bool) -> None:
-        # The repr of a record has all that it holds: megabytes for a scene, which a notebook would store.
-        printer.text(type(self).__name__ if is_cycle else _display().to_text(self))
+    def _repr_mimebundle_(self, include: object = None, exclude: object = None) -> dict[str, str]:
+        # IPython would take the repr for the text: all that a record holds, which is megabytes for a graph. It asks for
+        # the HTML by itself, and not on a terminal.
+        return {"text/plain": _display().to_text(self)}
 
 
 def _display() -> Any:

@@ -6,6 +6,7 @@ from html.parser import HTMLParser
 from pathlib import Path
 
 import pytest
+from IPython.core.formatters import DisplayFormatter
 
 import usd2kg
 from tests.scene.usda import METRES, box
@@ -152,22 +153,21 @@ def test_a_sentence_is_escaped(world):
     assert "\x1b" not in to_text(InterpretedAnswer("a", world.sparql("ASK {}"), sentence="\x1b[2J"))
 
 
-def test_ipython_shows_text_and_not_the_repr(world):
-    class Printer:
-        shown = ""
-
-        def text(self, text: str) -> None:
-            self.shown += text
-
+def test_ipython_shows_html_and_text_but_not_the_repr(world):
     for record in (world, world.built, world.scene, world.grounding, world.graph, world.sparql("ASK {}")):
-        printer = Printer()
-        record._repr_pretty_(printer, False)
-        assert printer.shown == to_text(record)
-        assert len(printer.shown) < 2000
+        formats, _ = DisplayFormatter().format(record)
+        assert set(formats) == {"text/plain", "text/html"}
+        assert formats["text/plain"] == to_text(record)
+        assert formats["text/html"] == to_html(record)
+        assert len(formats["text/plain"]) < 2000
     assert to_text(world).splitlines()[2].split() == ["class", "name", "confidence", "size", "in", "m", "relations"]
-    printer = Printer()
-    world._repr_pretty_(printer, True)
-    assert printer.shown == "World"
+
+
+def test_ipython_on_a_terminal_draws_nothing(world, monkeypatch):
+    monkeypatch.setattr(html, "draw_thumbnail", lambda *_: pytest.fail("drawn"))
+    formatter = DisplayFormatter()
+    formatter.active_types = ["text/plain"]
+    assert formatter.format(world)[0] == {"text/plain": to_text(world)}
 
 
 def test_long_cells_are_cut(world):
