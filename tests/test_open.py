@@ -117,11 +117,15 @@ def test_a_scene_of_several_is_named(make_store):
         usd2kg.open(store, scene="garage")
 
 
-def test_a_scene_is_refused_for_a_stage_and_for_a_graph_file(stage, saved):
-    with pytest.raises(GraphError, match="is a stage; scene='kitchen' selects one of a store"):
-        usd2kg.open(stage, scene="kitchen")
-    with pytest.raises(GraphError, match="is a single graph"):
-        usd2kg.open(saved, scene="kitchen")
+@pytest.mark.parametrize("name", ["kitchen.usda", "kitchen.ttl"])
+def test_a_scene_is_only_chosen_from_a_store(saved, name):
+    with pytest.raises(GraphError, match="is no store; leave out scene='kitchen'"):
+        usd2kg.open(saved.with_name(name), scene="kitchen")
+
+
+def test_options_are_refused_for_a_store(make_store):
+    with pytest.raises(GraphError, match="loaded and not built; leave out base, profile"):
+        usd2kg.open(make_store("kitchen"), base="https://example.org/", profile="soma")
 
 
 @pytest.mark.parametrize(

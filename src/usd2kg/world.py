@@ -1,6 +1,6 @@
 """open: a stage, a graph file or a store → World, which answers questions."""
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
 from functools import cached_property
 from pathlib import Path
@@ -21,7 +21,7 @@ from usd2kg.graph import (
 from usd2kg.graph.vocabulary import PREFIXES
 from usd2kg.grounding import Grounding
 from usd2kg.pipeline import BuildResult, build
-from usd2kg.query import Answer, GraphStore
+from usd2kg.query import Answer, GraphStore, load_graph
 from usd2kg.query.body_table import Body
 from usd2kg.query.lookup import SceneFacts
 from usd2kg.rich_display import RichDisplay
@@ -112,8 +112,11 @@ class World(RichDisplay):
     def save(self, path: Path | str) -> None:
         """Write the graph in the format of the file extension, see `usd2kg.write_graph`.
 
+        A graph that was loaded from a file is read from it again, in its order and with its prefixes.
+
         Raises:
-            GraphError: the extension is unknown, or the format cannot represent the graph.
+            GraphError: the extension is unknown, the file that was loaded is gone, or the format cannot represent the
+                graph.
             OutputError: the file cannot be written.
         """
         write_graph(_document(self) if self.built is None else self.built.graph, path)
@@ -132,17 +135,22 @@ def open(source: Path | str, *, scene: str | None = None, **options: Any) -> Wor
         Usd2kgError: the source cannot be read, or an option is invalid or does not apply to it.
     """
     place = str(source)
-    if not is_store(place) and is_stage(Path(place)):
-        if scene is not None:
-            raise GraphError(f"{place}: is a stage; scene={scene!r} selects one of a store")
+    if is_store(place):
+        _refuse(place, options)
+        return World(place, open_graph(place, _only_scene(place) if scene is None else scene))
+    if scene is not None:
+        raise GraphError(f"{place}: is no store; leave out scene={scene!r}, which selects one of its graphs")
+    if is_stage(Path(place)):
         built = build(place, **options)
         return World(place, GraphStore.from_triples(built.graph.triples, place), built)
+    _check_ending(Path(place))
+    _refuse(place, options)
+    return World(place, load_graph(place, is_indexed=True))
+
+
+def _refuse(place: str, options: Mapping[str, Any]) -> None:
     if options:
         raise GraphError(f"{place}: is a graph, which is loaded and not built; leave out {', '.join(options)}")
-    if is_store(place):
-        return World(place, open_graph(place, _only_scene(place) if scene is None else scene))
-    _check_ending(Path(place))
-    return World(place, open_graph(place, scene))
 
 
 def _only_scene(place: str) -> str | None:

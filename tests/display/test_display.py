@@ -57,7 +57,7 @@ class Reader(HTMLParser):
 
 @pytest.fixture(autouse=True)
 def _without_cache():
-    html._cached_picture.cache_clear()
+    html._pictures.clear()
 
 
 @pytest.fixture
@@ -194,6 +194,14 @@ def test_the_picture_is_drawn_once(world, monkeypatch):
     assert to_html(world) == to_html(world)
     to_html(world.scene)
     assert drawn == [world.source]
+
+
+def test_few_pictures_are_kept(write_stage, monkeypatch):
+    monkeypatch.setattr(html, "draw_thumbnail", lambda scene, size: b"png")
+    monkeypatch.setattr(html, "_MAX_KEPT", 2)
+    for number in range(4):
+        to_html(usd2kg.read_scene(write_stage(ROOM, f"{number}.usda")))
+    assert [Path(key[0]).name for key in html._pictures] == ["2.usda", "3.usda"]
 
 
 def test_a_failure_to_draw_leaves_the_picture_out(world, monkeypatch, caplog):

@@ -2,7 +2,7 @@
 
 import logging
 from base64 import b64encode
-from functools import lru_cache
+from collections.abc import Hashable
 from html import escape
 
 from usd2kg.display.cells import format_cell
@@ -16,6 +16,9 @@ logger = logging.getLogger(__name__)
 
 _PICTURE_SIZE = (280, 210)
 """Width and height in pixels: 40 kB of PNG for a furnished room."""
+_MAX_KEPT = 8
+_pictures: dict[Hashable, bytes | None] = {}
+"""What a picture depends on → PNG, or None where there is no picture."""
 
 
 def to_html(record: object) -> str:
@@ -33,10 +36,10 @@ def to_html(record: object) -> str:
         parts.append(f'<img alt="the scene" width="{width}" height="{height}" src="{source}">')
     if view.columns:
         rows = [_row("th", view.columns), *(_row("td", row) for row in view.rows)]
-        parts.append(f"<table>\n{chr(10).join(rows)}\n</table>")
+        parts += ["<table>", *rows, "</table>"]
     if more := view.count - len(view.rows):
         parts.append(f"<p>and {more} more</p>")
-    return f"<div>\n{chr(10).join(parts)}\n</div>"
+    return "\n".join(["<div>", *parts, "</div>"])
 
 
 def _row(tag: str, cells: tuple[object, ...]) -> str:
@@ -44,27 +47,18 @@ def _row(tag: str, cells: tuple[object, ...]) -> str:
 
 
 def _picture(scene: Scene) -> bytes | None:
+    """Return a picture of a scene; those of the last few are kept, since a notebook shows a scene again and again."""
+    key = (scene.source, scene.content_hash, scene.frame, scene.time)
+    if key not in _pictures:
+        while len(_pictures) >= _MAX_KEPT:
+            _pictures.pop(next(iter(_pictures)))
+        _pictures[key] = _draw(scene)
+    return _pictures[key]
+
+
+def _draw(scene: Scene) -> bytes | None:
     try:
-        return _cached_picture(_ByContent(scene))
+        return draw_thumbnail(scene, _PICTURE_SIZE)
     except Exception as error:  # A record has to be shown, whatever drawing its stage raises.
         logger.info("%s: no picture: %s", scene.source, error)
         return None
-
-
-class _ByContent:
-    """A scene, equal to others that look the same; comparing all objects would take long."""
-
-    def __init__(self, scene: Scene) -> None:
-        self.scene = scene
-        self._key = (scene.source, scene.content_hash, scene.frame, scene.time)
-
-    def __eq__(self, other: object) -> bool:
-        return isinstance(other, _ByContent) and self._key == other._key
-
-    def __hash__(self) -> int:
-        return hash(self._key)
-
-
-@lru_cache(maxsize=8)
-def _cached_picture(shown: _ByContent) -> bytes | None:
-    return draw_thumbnail(shown.scene, _PICTURE_SIZE)
