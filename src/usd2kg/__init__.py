@@ -16,6 +16,7 @@ if TYPE_CHECKING:
     from usd2kg.query import load_graph
     from usd2kg.scene import Scene, read_scene
     from usd2kg.tables import Tables, to_tables
+    from usd2kg.world import World, open
 
 _PACKAGES = {
     "BuildResult": "pipeline",
@@ -25,6 +26,7 @@ _PACKAGES = {
     "Tables": "tables",
     "TBox": "ontology",
     "Usd2kgError": "errors",
+    "World": "world",
     "build": "pipeline",
     "ground": "grounding",
     "instantiate": "graph",
@@ -32,6 +34,7 @@ _PACKAGES = {
     "load_home_tbox": "ontology",
     "load_tbox": "ontology",
     "make_grounder": "grounding",
+    "open": "world",
     "read_scene": "scene",
     "to_tables": "tables",
     "write_graph": "graph",
@@ -45,6 +48,7 @@ __all__ = [
     "TBox",
     "Tables",
     "Usd2kgError",
+    "World",
     "build",
     "ground",
     "instantiate",
@@ -52,6 +56,7 @@ __all__ = [
     "load_home_tbox",
     "load_tbox",
     "make_grounder",
+    "open",
     "read_scene",
     "to_tables",
     "write_graph",

@@ -1,6 +1,7 @@
 """The whole pipeline: scene + ontology → knowledge graph."""
 
 from collections.abc import Iterable, Mapping
+from contextlib import nullcontext
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -17,14 +18,16 @@ from usd2kg.ontology import (
     load_tbox,
     read_closure,
 )
+from usd2kg.progress import show_steps
 from usd2kg.relations import RelationOptions, find_relations
+from usd2kg.rich_display import RichDisplay
 from usd2kg.scene import ReadOptions, Scene, read_scene
 
 __all__ = ["BuildResult", "build", "open_tbox"]
 
 
 @dataclass(frozen=True)
-class BuildResult:
+class BuildResult(RichDisplay):
     """The result of each step."""
 
     scene: Scene
@@ -50,6 +53,7 @@ def build(
     graph_options: GraphOptions | None = None,
     relations: RelationOptions | None = None,
     merges_imports: bool = False,
+    progress: bool = False,
 ) -> BuildResult:
     """Return the knowledge graph of a USD scene, with the results of all steps.
 
@@ -70,19 +74,21 @@ def build(
         graph_options: annotations, colours and time stamp of the graph.
         relations: kinds, rules and viewpoint of spatial relations; default: the default kinds with the built-in rules.
         merges_imports: include the ontology, its imports and the usd2kg vocabulary in the graph.
+        progress: show a bar of the steps in a notebook or on a terminal, see `usd2kg.progress.show_steps`.
 
     Raises:
         Usd2kgError: an input cannot be read, or an option is invalid.
     """
-    read = scene if isinstance(scene, Scene) else read_scene(scene, paths=paths, options=options)
-    tbox = ontology if isinstance(ontology, TBox) else open_tbox(ontology, scene=read)
-    if alignment is not None:
-        grounder = _aligned_grounder(grounder, Path(alignment))
-    grounding = ground(read, tbox, grounder, regime=regime, evidence=evidence, decisions=decisions, carried=carried)
-    found = find_relations(read, tbox, grounding, relations)
-    graph = instantiate(read, tbox, grounding, base=base, profile=profile, options=graph_options, relations=found)
-    if merges_imports:
-        graph = merge_imports(graph, read_closure(tbox, graph.imports))
+    with show_steps("read", "ontology", "ground", "relate", "instantiate") if progress else nullcontext():
+        read = scene if isinstance(scene, Scene) else read_scene(scene, paths=paths, options=options)
+        tbox = ontology if isinstance(ontology, TBox) else open_tbox(ontology, scene=read)
+        if alignment is not None:
+            grounder = _aligned_grounder(grounder, Path(alignment))
+        grounding = ground(read, tbox, grounder, regime=regime, evidence=evidence, decisions=decisions, carried=carried)
+        found = find_relations(read, tbox, grounding, relations)
+        graph = instantiate(read, tbox, grounding, base=base, profile=profile, options=graph_options, relations=found)
+        if merges_imports:
+            graph = merge_imports(graph, read_closure(tbox, graph.imports))
     return BuildResult(read, tbox, grounding, graph)
 
 

@@ -10,10 +10,11 @@ import sys
 import time
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
+from contextvars import ContextVar
 from functools import wraps
 from typing import Any, ParamSpec, TypeVar
 
-__all__ = ["TRACING_VARIABLES", "set_up_tracing", "span", "traced"]
+__all__ = ["TRACING_VARIABLES", "followed_steps", "set_up_tracing", "span", "traced"]
 
 logger = logging.getLogger(__name__)
 
@@ -23,12 +24,25 @@ TRACING_VARIABLES = ("OTEL_TRACES_EXPORTER", "OTEL_EXPORTER_OTLP_ENDPOINT", "OTE
 Attributes = dict[str, str | int | float]
 _Given = ParamSpec("_Given")
 _Result = TypeVar("_Result")
+_follower: ContextVar[Callable[[str], None] | None] = ContextVar("usd2kg_follower", default=None)
+
+
+@contextmanager
+def followed_steps(notice: Callable[[str], None]) -> Iterator[None]:
+    """Call `notice` with the name of each step that begins before the context ends."""
+    token = _follower.set(notice)
+    try:
+        yield
+    finally:
+        _follower.reset(token)
 
 
 @contextmanager
 def span(name: str) -> Iterator[Attributes]:
     """Measure a step. The attributes that are put into the yielded dictionary are recorded at its end."""
     attributes: Attributes = {}
+    if (notice := _follower.get()) is not None:
+        notice(name)
     start = time.perf_counter()
     tracer = _tracer()
     if tracer is None:

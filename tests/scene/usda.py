@@ -51,6 +51,12 @@ def cube(name, *body, size=1, at=None, purpose=None, meta=()):
     return prim("Cube", name, *lines, meta=meta)
 
 
+def box(name, center, sides, meta=()):
+    """Return a component that is a box, with its centre and sides in stage units."""
+    shape = cube("shape", ops(("double3", "translate", center), ("double3", "scale", sides)))
+    return component(name, shape, meta=meta)
+
+
 def move(x, y, z):
     """Return the lines that translate a prim."""
     return ops(("double3", "translate", (x, y, z)))

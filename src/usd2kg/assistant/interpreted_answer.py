@@ -4,12 +4,13 @@ from dataclasses import dataclass
 from typing import Any
 
 from usd2kg.query import Answer
+from usd2kg.rich_display import RichDisplay
 
 __all__ = ["InterpretedAnswer"]
 
 
 @dataclass(frozen=True)
-class InterpretedAnswer:
+class InterpretedAnswer(RichDisplay):
     """An answer with the interpretation of its question."""
 
     understood: str

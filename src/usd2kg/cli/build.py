@@ -9,6 +9,7 @@ import typer
 from typer import Argument, Option
 
 from usd2kg.cli.build_summary import summarize_build, summary_text
+from usd2kg.cli.grounder_session import show_progress
 from usd2kg.cli.options.bundles import check_files, expand_bundles
 from usd2kg.cli.options.common import BaseIri, JsonOutput, OntologyFile
 from usd2kg.cli.options.graph import AnnotationOptions, MergedImports, Profile, SpatialOptions
@@ -77,7 +78,10 @@ def build_command(
     for source, target in zip(scenes, targets, strict=True):
         start = time.perf_counter()
         try:
-            with steps.run(source, tbox, base) as (result, session):
+            with (
+                show_progress(grounding, "read", "ground", "relate", "instantiate", "write"),
+                steps.run(source, tbox, base) as (result, session),
+            ):
                 if tbox is None:
                     notify_notes(result.tbox)
                 _save(result, merge_imports, target, opened)

@@ -32,7 +32,7 @@ def demo_command(
     # The questions are answered from the file, so it has to be a format that can be read.
     rdf_format(output)
     check_writable(output)
-    result = build(demo_scene())
+    result = build(demo_scene(), progress=True)
     write_graph(result.graph, output)
     summary = summarize_build(result, str(output), time.perf_counter() - start)
     summary["scene"] = demo_scene().name

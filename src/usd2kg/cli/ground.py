@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 from typer import Option
 
-from usd2kg.cli.grounder_session import GrounderSession, open_session
+from usd2kg.cli.grounder_session import GrounderSession, open_session, show_progress
 from usd2kg.cli.options.bundles import check_files, expand_bundles
 from usd2kg.cli.options.common import BaseIri, OntologyFile, SceneFile, TextFile
 from usd2kg.cli.options.grounding import AbbreviatedLength, GroundingOptions
@@ -77,24 +77,25 @@ def ground_command(
     check_files([output], [scene, ontology, paths], grounding, carry_over, reading)
     wanted = read_paths(paths) if paths is not None else None
     read_options = reading.read_options()
-    found = read_scene(scene, paths=wanted, options=read_options)
-    tbox = open_tbox(ontology, scene=found)
-    notify_notes(tbox)
-    with open_session(grounding, found, tbox, scene, read_options, carry_over) as session:
-        if session.model is not None and grounding.model.requests.dry_run:
-            _print_dry_run(session, found, tbox, wanted, abbreviated_length, output)
-            return
-        result = ground(
-            found,
-            tbox,
-            session.grounder,
-            regime=regime,
-            evidence=evidence,
-            paths=wanted,
-            decisions=session.decisions,
-            carried=session.carried,
-            abbreviated_length=abbreviated_length,
-        )
+    with show_progress(grounding, "read", "ground"):
+        found = read_scene(scene, paths=wanted, options=read_options)
+        tbox = open_tbox(ontology, scene=found)
+        notify_notes(tbox)
+        with open_session(grounding, found, tbox, scene, read_options, carry_over) as session:
+            if session.model is not None and grounding.model.requests.dry_run:
+                _print_dry_run(session, found, tbox, wanted, abbreviated_length, output)
+                return
+            result = ground(
+                found,
+                tbox,
+                session.grounder,
+                regime=regime,
+                evidence=evidence,
+                paths=wanted,
+                decisions=session.decisions,
+                carried=session.carried,
+                abbreviated_length=abbreviated_length,
+            )
     if file_format == _SSSOM:
         emit(_format_sssom(result, tbox, found, base, license_iri, mapping_date), output)
     else:

@@ -1,7 +1,7 @@
 """The grounder that the options define for one scene: one grounder, or a cascade, with the decisions of a person."""
 
 from collections.abc import Callable, Iterator, Mapping
-from contextlib import ExitStack, contextmanager
+from contextlib import AbstractContextManager, ExitStack, contextmanager, nullcontext
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from usd2kg.ontology import ClassIRI, TBox
     from usd2kg.scene import ReadOptions, Scene
 
-__all__ = ["GrounderSession", "open_session"]
+__all__ = ["GrounderSession", "open_session", "show_progress"]
 
 
 @dataclass(frozen=True)
@@ -55,6 +55,14 @@ class GrounderSession:
             waiting = find_uncertain(grounding, self.options.review.person)
             emit(format_queue(waiting, tbox), queue)
             notify(f"{len(waiting)} objects to review in {queue}; fill in the column decision for --decisions")
+
+
+def show_progress(options: GroundingOptions, *steps: str) -> AbstractContextManager[None]:
+    """Return a context that shows a bar of steps; none for a language model, which has a line of its own."""
+    from usd2kg.grounding import is_llm_name  # noqa: PLC0415 - slow to import
+    from usd2kg.progress import show_steps  # noqa: PLC0415
+
+    return nullcontext() if is_llm_name(options.grounder) else show_steps(*steps)
 
 
 @contextmanager

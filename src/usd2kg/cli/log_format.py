@@ -4,7 +4,7 @@ import json
 import logging
 import sys
 import time
-from typing import Any
+from typing import Any, TextIO
 
 from usd2kg.errors import Usd2kgError
 
@@ -23,6 +23,17 @@ class _JsonFormatter(logging.Formatter):
         return format_record(record.levelno, record.getMessage(), logger=record.name, **more)
 
 
+class _StderrHandler(logging.StreamHandler[TextIO]):
+    """Writes to what is stderr at the time of the record: above a progress bar while there is one."""
+
+    def __init__(self) -> None:
+        logging.Handler.__init__(self)
+
+    @property
+    def stream(self) -> TextIO:  # type: ignore[override]
+        return sys.stderr
+
+
 def set_up_logging(level: int, log_format: str) -> None:
     """Log to stderr.
 
@@ -31,7 +42,7 @@ def set_up_logging(level: int, log_format: str) -> None:
     """
     if log_format not in LOG_FORMATS:
         raise Usd2kgError(f"--log-format {log_format}: expected {' or '.join(LOG_FORMATS)}")
-    handler = logging.StreamHandler(sys.stderr)
+    handler = _StderrHandler()
     handler.setFormatter(_JsonFormatter() if log_format == "json" else logging.Formatter("%(message)s"))
     logging.basicConfig(level=level, handlers=[handler])
 

@@ -33,6 +33,7 @@ from usd2kg.graph.vocabulary import OWL, RDF, RDFS, U2K, Triple, text
 from usd2kg.grounding import Grounding, Prediction
 from usd2kg.ontology import TBox
 from usd2kg.relations import ROOM_KINDS, Relation, find_relations
+from usd2kg.rich_display import RichDisplay
 from usd2kg.scene import Scene, SceneObject
 from usd2kg.tracing import traced
 
@@ -45,7 +46,7 @@ _SOMA_DOCUMENTS = "http://www.ease-crc.org/ont/SOMA"
 
 
 @dataclass(frozen=True)
-class KnowledgeGraph:
+class KnowledgeGraph(RichDisplay):
     """The triples of one scene in a fixed order, with counts."""
 
     iri: str

@@ -6,6 +6,7 @@ from enum import StrEnum
 from functools import cached_property
 
 from usd2kg.ontology import ClassIRI
+from usd2kg.rich_display import RichDisplay
 
 __all__ = ["Candidate", "Concept", "Decision", "Grounding", "Prediction", "Review", "Status"]
 
@@ -134,7 +135,7 @@ class Prediction:
 
 
 @dataclass(frozen=True)
-class Grounding:
+class Grounding(RichDisplay):
     """The predictions for one scene and one TBox, with their provenance."""
 
     scene: str

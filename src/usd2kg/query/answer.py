@@ -7,6 +7,8 @@ from typing import Any
 
 import pyoxigraph as ox
 
+from usd2kg.rich_display import RichDisplay
+
 __all__ = ["Answer", "Value", "join_answers", "join_scenes", "make_answer", "with_columns"]
 
 Value = str | float | int | bool | None
@@ -14,7 +16,7 @@ Value = str | float | int | bool | None
 
 
 @dataclass(frozen=True)
-class Answer:
+class Answer(RichDisplay):
     """The result table of a query."""
 
     columns: tuple[str, ...]

@@ -7,6 +7,7 @@ from typing import Literal, NamedTuple
 
 from usd2kg.convert.origin import Origin
 from usd2kg.languages import split_compound
+from usd2kg.rich_display import RichDisplay
 from usd2kg.shapes.surface import Surface
 from usd2kg.words import words_of
 
@@ -269,7 +270,7 @@ class SceneObject:
 
 
 @dataclass(frozen=True)
-class Scene:
+class Scene(RichDisplay):
     """All objects of one stage, with joints and diagnostics."""
 
     source: str
