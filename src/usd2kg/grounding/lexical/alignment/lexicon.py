@@ -1,7 +1,7 @@
 """Build the lexicon of a TBox: the terms that name its classes, and the synsets that they are aligned with."""
 
 from collections import Counter
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import NamedTuple
 
@@ -125,24 +125,24 @@ def _own_terms(tbox: TBox, taxonomy: Taxonomy, synonyms: Mapping[ClassIRI, tuple
     """Return term without spaces → the class it names, by the labels and synonyms of the classes."""
     depths = tbox.depths
     classes = sorted(physical_classes(tbox), key=lambda cls: (depths[cls.iri], cls.iri))
+    own = {(text, cls.iri) for cls in classes for text in cls.alt_labels}
+    called = {text for text, _ in own}
     terms: dict[str, Term] = {}
     for cls in classes:
-        for text, kind in _texts_of(cls):
+        # What an ontology calls its classes precedes what the home vocabulary counts among another class.
+        names = [text for text in synonyms.get(cls.iri, ()) if text not in called or (text, cls.iri) in own]
+        for text, kind in _texts_of(cls, names):
             keep_best(terms, Term(cls.iri, normalise_label(text, taxonomy), kind))
             if residue := residue_of(text, taxonomy):
                 # “Other furniture” is the class of furniture, unless another class has that label.
                 keep_best(terms, Term(cls.iri, residue, TermKind.SYNONYM))
-    # What an ontology calls its classes precedes what the home vocabulary counts among a class with the same IRI.
-    for cls in classes:
-        for text in synonyms.get(cls.iri, ()):
-            keep_best(terms, Term(cls.iri, normalise_label(text, taxonomy), TermKind.SYNONYM))
     return terms
 
 
-def _texts_of(cls: OntologyClass) -> Iterator[tuple[str, TermKind]]:
+def _texts_of(cls: OntologyClass, synonyms: Iterable[str]) -> Iterator[tuple[str, TermKind]]:
     yield cls.label, TermKind.LABEL
     yield cls.local_name, TermKind.LABEL
-    for text in cls.alt_labels:
+    for text in (*cls.alt_labels, *synonyms):
         yield text, TermKind.SYNONYM
 
 
