@@ -41,6 +41,7 @@ from usd2kg.cli import (
 from usd2kg.cli.log_format import set_up_logging
 from usd2kg.cli.output import emit, notify, to_single_line
 from usd2kg.cli.project_file import read_project_options
+from usd2kg.cli.terminal import forbid_colors
 from usd2kg.errors import Usd2kgError
 from usd2kg.tracing import set_up_tracing
 
@@ -55,7 +56,6 @@ _EXHAUSTED = {
 app = typer.Typer(
     name="usd2kg",
     no_args_is_help=True,
-    add_completion=False,
     pretty_exceptions_enable=False,
     rich_markup_mode=None,
     context_settings={"help_option_names": ["-h", "--help"]},
@@ -104,6 +104,9 @@ def _options(
     no_project_file: Annotated[
         bool, Option("--no-project-file", help="Ignore the options of usd2kg.toml. Accepted anywhere.")
     ] = False,
+    no_color: Annotated[
+        bool, Option("--no-color", help="Print no colours, as with the variable NO_COLOR. Accepted anywhere.")
+    ] = False,
     log_format: Annotated[
         str,
         Option(
@@ -117,6 +120,8 @@ def _options(
     level = logging.INFO if verbose or log_format == "json" else logging.WARNING
     set_up_logging(level, log_format)
     set_up_tracing()
+    if no_color:
+        forbid_colors()
 
 
 def main() -> None:
@@ -131,6 +136,8 @@ def main() -> None:
         if "--log-format=json" in global_options:
             # Before the project file is announced.
             set_up_logging(logging.INFO, "json")
+        if "--no-color" in global_options:
+            forbid_colors()
         if "--no-project-file" not in global_options:
             arguments = _with_project_options(arguments)
         app(args=[*global_options, *arguments], prog_name="usd2kg")
@@ -157,7 +164,7 @@ def _split_global_options(arguments: Sequence[str]) -> tuple[list[str], list[str
     others: list[str] = []
     waiting = iter(arguments)
     for argument in waiting:
-        if argument in {"--verbose", "--no-project-file"} or argument.startswith("--log-format="):
+        if argument in {"--verbose", "--no-project-file", "--no-color"} or argument.startswith("--log-format="):
             found.append(argument)
         elif argument == "--log-format":
             found.append(f"--log-format={next(waiting, '')}")

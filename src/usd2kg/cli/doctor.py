@@ -12,7 +12,8 @@ from typing import Any, NamedTuple
 import typer
 
 from usd2kg.cli.options.common import JsonOutput
-from usd2kg.cli.output import emit, format_table, print_json
+from usd2kg.cli.output import emit, print_json
+from usd2kg.cli.text_table import format_table
 
 __all__ = ["doctor_command"]
 

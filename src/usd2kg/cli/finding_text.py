@@ -1,5 +1,6 @@
 """Findings of a validation as text."""
 
+import sys
 from collections import Counter
 from collections.abc import Iterator, Sequence
 from itertools import groupby
@@ -7,11 +8,15 @@ from typing import TYPE_CHECKING
 
 from usd2kg.cli.limits import FINDINGS_PER_RULE
 from usd2kg.cli.output import count_noun, to_single_line
+from usd2kg.cli.terminal import Style, paint
 
 if TYPE_CHECKING:
     from usd2kg.validation import Finding
 
 __all__ = ["findings_text"]
+
+_STYLES = {"error": Style.ERROR, "warning": Style.WARNING, "note": Style.NOTE}
+"""Severity → style."""
 
 
 def findings_text(findings: "Sequence[Finding]", checked: int, noun: str, *, is_complete: bool) -> str:
@@ -36,7 +41,8 @@ def findings_text(findings: "Sequence[Finding]", checked: int, noun: str, *, is_
 
 def _lines(finding: "Finding") -> Iterator[str]:
     named = f"{to_single_line(finding.label)} {to_single_line(finding.prim_path)}".strip()
-    yield f"{finding.severity} [{finding.rule}] {named or to_single_line(finding.iri) or 'the whole graph'}"
+    severity = paint(str(finding.severity), _STYLES[finding.severity], sys.stdout)
+    yield f"{severity} [{finding.rule}] {named or to_single_line(finding.iri) or 'the whole graph'}"
     yield f"  found:    {to_single_line(finding.found)}"
     yield f"  expected: {to_single_line(finding.expected)}"
     yield f"  do:       {to_single_line(finding.advice)}"

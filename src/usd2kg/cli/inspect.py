@@ -24,7 +24,8 @@ from usd2kg.cli.object_text import (
 from usd2kg.cli.options.bundles import expand_bundles
 from usd2kg.cli.options.common import JsonOutput, SceneFile
 from usd2kg.cli.options.stage import StageOptions
-from usd2kg.cli.output import count_noun, emit, format_table, print_json, replace_controls, to_single_line
+from usd2kg.cli.output import count_noun, emit, print_json, replace_controls, to_single_line
+from usd2kg.cli.text_table import format_table
 from usd2kg.errors import SceneError
 
 if TYPE_CHECKING:
@@ -70,7 +71,7 @@ def inspect_command(
     if json:
         print_json(_scene_json(found, measured))
     else:
-        emit(replace_controls(_scene_text(found, measured)))
+        emit(_scene_text(found, measured))
 
 
 def _explain(source: Path, path: str, options: "ReadOptions", *, is_json: bool) -> None:
@@ -154,6 +155,7 @@ def _scene_text(scene: "Scene", shapes: "Mapping[str, ShapeDescriptors] | None")
         lines.append(f"also read: {', '.join(counts)}; --why PATH shows those of one object\n")
     if scene.left_out:
         lines.append("left out: " + ", ".join(f"{count} {reason}" for reason, count in scene.left_out.items()) + "\n")
+    lines = [replace_controls(line) for line in lines]
     if scene.diagnostics:
         lines += ["\n", format_table(("diagnostic", "where", "message"), list(_diagnostic_rows(scene.diagnostics)))]
     return format_table(columns, rows) + "".join(lines)

@@ -1,12 +1,12 @@
 """Limits on how much the commands show."""
 
 __all__ = [
-    "CELL_WIDTH",
     "CHANGES_PER_KIND",
     "DEMO_ROWS",
     "FINDINGS_PER_RULE",
     "MOVES_TO_GROUP",
     "NAMES_PER_CELL",
+    "NARROWEST_COLUMN",
     "PATHS_PER_REASON",
     "SIMILAR_DIAGNOSTICS",
     "SUGGESTIONS",
@@ -28,5 +28,5 @@ SUGGESTIONS = 10
 """Suggested classes that `ontology align` shows."""
 DEMO_ROWS = 12
 """Rows of each answer that `demo` shows."""
-CELL_WIDTH = 60
-"""Characters of a table cell on a terminal; the last column is not cut."""
+NARROWEST_COLUMN = 12
+"""Characters to which a column of a table that is wider than the terminal is cut at most."""

@@ -6,7 +6,8 @@ from decimal import Decimal
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from usd2kg.cli.output import emit, format_table, notify, replace_controls
+from usd2kg.cli.output import emit, notify, replace_controls
+from usd2kg.cli.text_table import format_table
 
 if TYPE_CHECKING:
     from usd2kg.grounding import CascadeGrounder, Grounding

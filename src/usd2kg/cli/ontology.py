@@ -13,7 +13,8 @@ from usd2kg.cli.limits import SUGGESTIONS
 from usd2kg.cli.options.bundles import expand_bundles
 from usd2kg.cli.options.common import AllFindings, JsonOutput, TextFile
 from usd2kg.cli.options.model import ModelName, RequestOptions
-from usd2kg.cli.output import Progress, count_noun, emit, format_table, notify, notify_notes, print_json
+from usd2kg.cli.output import Progress, count_noun, emit, notify, notify_notes, print_json
+from usd2kg.cli.text_table import format_table
 from usd2kg.errors import OntologyError
 
 if TYPE_CHECKING:

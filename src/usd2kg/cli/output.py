@@ -6,13 +6,12 @@ import os
 import re
 import sys
 import time
-from collections.abc import Sequence
 from pathlib import Path
 from types import TracebackType
 from typing import TYPE_CHECKING, Any, Self
 
-from usd2kg.cli.limits import CELL_WIDTH
 from usd2kg.cli.log_format import format_record, is_json_log
+from usd2kg.cli.terminal import Style, paint
 from usd2kg.files import write_whole
 
 if TYPE_CHECKING:
@@ -24,7 +23,6 @@ __all__ = [
     "count_noun",
     "emit",
     "format_optional",
-    "format_table",
     "notify",
     "notify_notes",
     "print_json",
@@ -40,8 +38,10 @@ _CLEAR_LINE = "\r\x1b[K"
 
 def notify(message: str, level: int = logging.INFO) -> None:
     """Print a message to stderr, as a record if messages are JSON."""
-    text = format_record(level, message) if is_json_log() else message
-    print(replace_controls(text), file=sys.stderr)  # noqa: T201
+    text = replace_controls(format_record(level, message) if is_json_log() else message)
+    if level >= logging.ERROR and not is_json_log():
+        text = paint(text, Style.ERROR, sys.stderr)
+    print(text, file=sys.stderr)  # noqa: T201
 
 
 def notify_notes(tbox: "TBox") -> None:
@@ -96,32 +96,6 @@ def count_noun(count: int, noun: str) -> str:
 def format_optional(value: float | None, spec: str) -> str | None:
     """Return a number in a format specification; None for None."""
     return None if value is None else format(value, spec)
-
-
-def format_table(columns: Sequence[str], rows: Sequence[Sequence[str | None]]) -> str:
-    """Return rows as aligned text.
-
-    On a terminal, long cells are shortened in the middle, except in the last column.
-
-    >>> print(format_table(("name", "size"), [("mug", "0.09"), ("table", None)]), end="")
-    name   size
-    mug    0.09
-    table
-    """
-    cells = [[" ".join(replace_controls(cell or "").splitlines()) for cell in row] for row in [columns, *rows]]
-    if sys.stdout.isatty():
-        cells = [[*map(_shorten, row[:-1]), row[-1]] for row in cells]
-    widths = [max(len(row[i]) for row in cells) for i in range(len(columns))]
-    lines = ("  ".join(cell.ljust(width) for cell, width in zip(row, widths, strict=True)).rstrip() for row in cells)
-    return "\n".join(lines) + "\n"
-
-
-def _shorten(text: str) -> str:
-    """Return text cut to `CELL_WIDTH`; a third is its start, since the end of a path identifies it best."""
-    if len(text) <= CELL_WIDTH:
-        return text
-    head = CELL_WIDTH // 3
-    return f"{text[:head]}…{text[len(text) - (CELL_WIDTH - head - 1) :]}"
 
 
 class Progress:

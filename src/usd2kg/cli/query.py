@@ -7,7 +7,8 @@ from typer import Argument, Option
 
 from usd2kg.cli.options.common import JsonOutput
 from usd2kg.cli.options.stores import OptionalGraphSource, SceneName
-from usd2kg.cli.output import count_noun, emit, format_table, notify, print_json
+from usd2kg.cli.output import count_noun, emit, notify, print_json
+from usd2kg.cli.text_table import format_table
 from usd2kg.errors import GraphError
 
 if TYPE_CHECKING:

@@ -9,8 +9,9 @@ from typer import Argument, Option
 
 from usd2kg.cli.options.common import JsonOutput
 from usd2kg.cli.options.stores import DataAddress, RequiredStore, UpdateAddress
-from usd2kg.cli.output import emit, format_table, notify, print_json
+from usd2kg.cli.output import emit, notify, print_json
 from usd2kg.cli.query import read_sparql
+from usd2kg.cli.text_table import format_table
 from usd2kg.errors import OutputError, StoreError
 
 if TYPE_CHECKING:

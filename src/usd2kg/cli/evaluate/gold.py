@@ -6,7 +6,8 @@ from typing import Annotated
 from typer import Argument, Option
 
 from usd2kg.cli.options.common import JsonOutput, OntologyFile, SceneFile, TextFile
-from usd2kg.cli.output import emit, format_optional, format_table, print_json
+from usd2kg.cli.output import emit, format_optional, print_json
+from usd2kg.cli.text_table import format_table
 from usd2kg.errors import EvaluationError
 
 __all__ = ["agreement_command", "annotate_command"]

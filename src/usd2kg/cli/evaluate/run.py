@@ -10,7 +10,8 @@ from usd2kg.cli.grounder_session import open_session
 from usd2kg.cli.options.bundles import check_files, expand_bundles
 from usd2kg.cli.options.common import JsonOutput, OntologyFile, SceneFile
 from usd2kg.cli.options.grounding import AbbreviatedLength, GroundingOptions
-from usd2kg.cli.output import emit, format_optional, format_table, print_json
+from usd2kg.cli.output import emit, format_optional, print_json
+from usd2kg.cli.text_table import format_table
 from usd2kg.errors import EvaluationError
 
 if TYPE_CHECKING:

@@ -7,7 +7,8 @@ from typing import Annotated, Any
 from typer import Argument, Option
 
 from usd2kg.cli.options.common import JsonOutput
-from usd2kg.cli.output import emit, format_optional, format_table, notify, print_json
+from usd2kg.cli.output import emit, format_optional, notify, print_json
+from usd2kg.cli.text_table import format_table
 from usd2kg.errors import EvaluationError
 
 __all__ = ["calibrate_command", "compare_command"]

@@ -1,0 +1,80 @@
+"""Rows as aligned text that fits the terminal."""
+
+import sys
+from collections.abc import Sequence
+
+from usd2kg.cli.limits import NARROWEST_COLUMN
+from usd2kg.cli.output import replace_controls
+from usd2kg.cli.terminal import Style, paint, terminal_width
+
+__all__ = ["fit_columns", "format_table"]
+
+_GAP = "  "
+
+
+def format_table(columns: Sequence[str], rows: Sequence[Sequence[str | None]]) -> str:
+    """Return rows as aligned text.
+
+    On a terminal, a table that is too wide is fitted: a column with one value in all rows becomes a line below the
+    table, and long cells are shortened in the middle. Columns without any value are left out there.
+
+    >>> print(format_table(("name", "size"), [("mug", "0.09"), ("table", None)]), end="")
+    name   size
+    mug    0.09
+    table
+    """
+    cells = [[" ".join(replace_controls(cell or "").splitlines()) for cell in row] for row in [columns, *rows]]
+    below: list[str] = []
+    width = terminal_width()
+    if width is not None:
+        cells, below = fit_columns(cells, width)
+    widths = _widths(cells)
+    head, *lines = [
+        _GAP.join(cell.ljust(width) for cell, width in zip(row, widths, strict=True)).rstrip() for row in cells
+    ]
+    return "\n".join([paint(head, Style.HEADER, sys.stdout), *lines, *below]) + "\n"
+
+
+def fit_columns(cells: list[list[str]], width: int) -> tuple[list[list[str]], list[str]]:
+    """Return a table, the header first, that fits a width if columns of `NARROWEST_COLUMN` do, and lines for below it.
+
+    >>> fit_columns([["name", "made by", "mass"], ["a" * 12, "Oak", ""], ["b" * 12, "Oak", ""]], 16)
+    ([['name'], ['aaaaaaaaaaaa'], ['bbbbbbbbbbbb']], ['all: made by Oak'])
+    """
+    head, *rows = cells
+    if not rows:
+        return cells, []
+    kept = [i for i in range(len(head)) if any(row[i] for row in rows)] or list(range(len(head)))
+    below: list[str] = []
+    if _total(_widths([[row[i] for i in kept] for row in cells])) > width and len(rows) > 1:
+        same = [i for i in kept if len({row[i] for row in rows}) == 1]
+        if len(same) < len(kept):
+            kept = [i for i in kept if i not in same]
+            below = [f"all: {head[i]} {rows[0][i]}" for i in same]
+    table = [[row[i] for i in kept] for row in cells]
+    limit = _largest_limit(_widths(table), width)
+    return [[_shorten(cell, limit) for cell in row] for row in table], below
+
+
+def _widths(cells: Sequence[Sequence[str]]) -> list[int]:
+    return [max(map(len, column)) for column in zip(*cells, strict=True)]
+
+
+def _total(widths: Sequence[int]) -> int:
+    return sum(widths) + len(_GAP) * (len(widths) - 1)
+
+
+def _largest_limit(widths: Sequence[int], width: int) -> int:
+    """Return the largest width of a column, not below `NARROWEST_COLUMN`, with which the table fits."""
+    limit = max(widths)
+    while limit > NARROWEST_COLUMN and _total([min(one, limit) for one in widths]) > width:
+        limit -= 1
+    return limit
+
+
+def _shorten(text: str, limit: int) -> str:
+    """Return text cut to a length; a third is its start, since the end of a path identifies it best."""
+    if len(text) <= limit:
+        return text
+    head = limit // 3
+    return f"{text[:head]}…{text[len(text) - (limit - head - 1) :]}"
