@@ -7,7 +7,7 @@ import numpy as np
 
 from usd2kg.errors import GraphError
 from usd2kg.query.body_table import Body
-from usd2kg.query.lookup import Nouns, SceneFacts, Things
+from usd2kg.query.lookup import SceneFacts, Things
 
 __all__ = ["COMPARED", "MASS", "MEASURES", "PLACE", "SAME", "SIZE", "SUPERLATIVES", "BodyMeasures", "Measure"]
 
@@ -85,9 +85,8 @@ SAME = 0.005
 class BodyMeasures:
     """Measures of the things that words mean."""
 
-    def __init__(self, facts: SceneFacts, nouns: Nouns) -> None:
+    def __init__(self, facts: SceneFacts) -> None:
         self._facts = facts
-        self._nouns = nouns
 
     def gaps(self, iris: Iterable[str], anchors: Sequence[str]) -> dict[str, float]:
         """Return the distances between boxes in metres, to the nearest anchor; things without a box are left out."""
@@ -103,17 +102,6 @@ class BodyMeasures:
         if a.lower is None or a.upper is None or b.lower is None or b.upper is None:
             return None
         return round(float(np.linalg.norm(np.maximum(np.maximum(a.lower - b.upper, b.lower - a.upper), 0))), 4)
-
-    def existing(self, text: str) -> Things:
-        """Return things that exist.
-
-        Raises:
-            GraphError: there are none.
-        """
-        things = self._nouns.find(text)
-        if not things.iris:
-            raise GraphError(f"there is no {things.text} in this scene{things.suffix}")
-        return things
 
     def values(self, iris: Iterable[str], measure: Measure) -> dict[str, float]:
         """Return the measure of each thing that has it."""

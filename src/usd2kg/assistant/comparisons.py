@@ -2,13 +2,14 @@
 
 import re
 from collections.abc import Callable
+from itertools import product
 
-from usd2kg.assistant.body_measures import COMPARED, MASS, PLACE, SAME, SIZE, SUPERLATIVES, BodyMeasures
+from usd2kg.assistant.body_measures import COMPARED, MASS, PLACE, SAME, SIZE, SUPERLATIVES, BodyMeasures, Measure
 from usd2kg.assistant.free_places import find_free_places
 from usd2kg.assistant.interpreted_answer import InterpretedAnswer
 from usd2kg.assistant.sentences import NUMBER_WORDS, begin_sentence, count_phrase, join_words, name_things, number_text
 from usd2kg.errors import GraphError
-from usd2kg.query.lookup import Nouns, SceneFacts
+from usd2kg.query.lookup import Nouns, SceneFacts, Things
 
 __all__ = ["ComparisonAnswers"]
 
@@ -33,7 +34,7 @@ class ComparisonAnswers:
     def __init__(self, facts: SceneFacts, nouns: Nouns) -> None:
         self._facts = facts
         self._nouns = nouns
-        self._bodies = BodyMeasures(facts, nouns)
+        self._bodies = BodyMeasures(facts)
 
     def find(self, question: str) -> Callable[..., InterpretedAnswer] | None:
         """Return the method that answers a frame; None if it is another's."""
@@ -49,7 +50,7 @@ class ComparisonAnswers:
 
     def _superlative(self, adjective: str, kind: str, count: str = "1") -> InterpretedAnswer:
         """Return the things that come first by a measure, with those that are equal to the last of them."""
-        things = self._bodies.existing(kind)
+        things = self._nouns.existing(kind)
         measure, sign = SUPERLATIVES[adjective.lower()]
         values = self._bodies.values(things.iris, measure)
         if not values:
@@ -71,24 +72,41 @@ class ComparisonAnswers:
         )
 
     def _compare(self, thing: str, adjective: str, other: str) -> InterpretedAnswer:
-        first, second = self._bodies.existing(thing), self._bodies.existing(other)
+        """Return whether one thing, or each of several, is more of something than another."""
+        first, second = self._nouns.existing(thing), self._nouns.existing(other)
         measure, sign = COMPARED[adjective.lower()]
-        values = self._bodies.values([first.iris[0], second.iris[0]], measure)
-        if len(values) < 2:
-            raise self._bodies.unmeasured(first if first.iris[0] not in values else second, measure)
-        one, two = values[first.iris[0]], values[second.iris[0]]
-        is_more = sign * (one - two) > SAME * max(one, two)
-        equal = abs(one - two) <= SAME * max(one, two)
-        numbers = f"{number_text(one, measure.unit)} against {number_text(two, measure.unit)}"
-        how = f"{one**3:.3g} against {two**3:.3g} m³" if measure is SIZE else numbers
+        values = self._bodies.values([*first.iris, *second.iris], measure)
+        ranges = []
+        for things in (first, second):
+            if not values.keys() >= set(things.iris):
+                raise self._bodies.unmeasured(things, measure)
+            own = [values[iri] for iri in things.iris]
+            ranges.append((min(own), max(own)))
+        pairs = list(product(*ranges))
+        verdicts = {sign * (one - two) > SAME * max(one, two) for one, two in pairs}
+        if len(verdicts) > 1:
+            named = " and ".join(self._candidates(things) for things in (first, second) if len(things.iris) > 1)
+            raise GraphError(
+                f"not known: some {first.text} are {adjective} than some {second.text}, others are not; "
+                f"expected the names of two things; there are {named}"
+            )
+        (is_more,) = verdicts
+        equal = all(abs(one - two) <= SAME * max(one, two) for one, two in pairs)
+        how = " against ".join(_range_text(low, high, measure) for low, high in ranges)
         said = f"{'Yes' if is_more else 'No'}: {'they are equal' if equal else how}."
         return InterpretedAnswer(
             f"whether {first.text} is {adjective} than {second.text}", self._facts.table(values), is_more, sentence=said
         )
 
+    def _candidates(self, things: Things) -> str:
+        """Return the names of the first few of some things, and the number of the others."""
+        labels = [self._facts.label(iri) for iri in things.iris]
+        rest = len(labels) - _MOST_NAMED
+        return join_words([*labels[:_MOST_NAMED], *([f"{rest} more"] if rest > 0 else [])])
+
     def _choose(self, thing: str, adjective: str, other: str) -> InterpretedAnswer:
         """Return which of two things is more of something."""
-        first, second = self._bodies.existing(thing), self._bodies.existing(other)
+        first, second = self._nouns.existing(thing), self._nouns.existing(other)
         measure, sign = COMPARED[adjective.lower()]
         values = self._bodies.values([*first.iris, *second.iris], measure)
         ranges = []
@@ -152,13 +170,13 @@ class ComparisonAnswers:
 
     def _fits(self, other: str, thing: str = "", sides: str = "") -> InterpretedAnswer:
         """Return whether a thing, or a box of some size, has room on others."""
-        surfaces, facts = self._bodies.existing(other), self._facts
+        surfaces, facts = self._nouns.existing(other), self._facts
         moved: tuple[str, ...] = ()
         if sides:
             name = f"a box of {sides}"
             width, depth, height = _read_sides(sides)
         else:
-            things = self._bodies.existing(thing)
+            things = self._nouns.existing(thing)
             name, moved = things.text, things.iris
             body = facts.body(things.iris[0])
             if body.lower is None or body.upper is None:
@@ -177,6 +195,12 @@ class ComparisonAnswers:
         sentence = f"{'Yes' if places else 'No'}: there is {where}{surfaces.suffix}."
         understood = f"whether {name} fits on {surfaces.text}"
         return InterpretedAnswer(understood, facts.table(spots, center_m=spots), bool(places), sentence=sentence)
+
+
+def _range_text(low: float, high: float, measure: Measure) -> str:
+    """Return a range of measures: 31 cm, 31 cm to 1.2 m."""
+    ends = [f"{end**3:.3g} m³" if measure is SIZE else number_text(end, measure.unit) for end in (low, high)]
+    return " to ".join(dict.fromkeys(ends))
 
 
 def _read_amount(text: str) -> tuple[float, str]:

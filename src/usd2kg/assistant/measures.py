@@ -30,7 +30,7 @@ class MeasureAnswers:
     def __init__(self, facts: SceneFacts, nouns: Nouns) -> None:
         self._facts = facts
         self._nouns = nouns
-        self._bodies = BodyMeasures(facts, nouns)
+        self._bodies = BodyMeasures(facts)
 
     def find(self, question: str) -> Handler | None:
         """Return the method that answers a frame; None if it is another's."""
@@ -51,7 +51,7 @@ class MeasureAnswers:
         return handlers.get(question)
 
     def _measure(self, thing: str, adjective: str = "size") -> InterpretedAnswer:
-        things, measure = self._bodies.existing(thing), MEASURES[adjective.lower()]
+        things, measure = self._nouns.existing(thing), MEASURES[adjective.lower()]
         values = self._bodies.values(things.iris, measure)
         if not values:
             raise self._bodies.unmeasured(things, measure)
@@ -76,7 +76,7 @@ class MeasureAnswers:
         )
 
     def _distance(self, thing: str, other: str) -> InterpretedAnswer:
-        first, second = self._bodies.existing(thing), self._bodies.existing(other)
+        first, second = self._nouns.existing(thing), self._nouns.existing(other)
         gaps = self._bodies.gaps(first.iris, second.iris)
         if not gaps:
             raise GraphError(f"not known: the graph has no boxes for {first.text} and {second.text}")
@@ -92,7 +92,7 @@ class MeasureAnswers:
         )
 
     def _color(self, thing: str) -> InterpretedAnswer:
-        things, facts = self._bodies.existing(thing), self._facts
+        things, facts = self._nouns.existing(thing), self._facts
         colors = {iri: ", ".join(own_colors(facts, iri)) for iri in things.iris if own_colors(facts, iri)}
         if not colors:
             raise GraphError(f"not known: the graph has no colour for {things.text}{things.suffix}")
@@ -107,7 +107,7 @@ class MeasureAnswers:
         )
 
     def _material(self, thing: str) -> InterpretedAnswer:
-        things, facts = self._bodies.existing(thing), self._facts
+        things, facts = self._nouns.existing(thing), self._facts
         found = {iri: ", ".join(facts.materials(iri)) for iri in things.iris if facts.materials(iri)}
         if not found:
             raise GraphError(f"not known: the graph has no material for {things.text}{things.suffix}")
@@ -127,7 +127,7 @@ class MeasureAnswers:
 
     def _are_like(self, kind: str, adjective: str) -> InterpretedAnswer:
         """Return the things of a colour, a material, or another kind."""
-        things, facts, word = self._bodies.existing(kind), self._facts, adjective.lower()
+        things, facts, word = self._nouns.existing(kind), self._facts, adjective.lower()
         if word in COLORS:
             if not facts.count(_COLORED):
                 raise GraphError("not known: the graph has no colours")
@@ -235,7 +235,7 @@ class MeasureAnswers:
         return InterpretedAnswer("things that open", facts.table(chosen), sentence=sentence)
 
     def _sure(self, thing: str, kind: str) -> InterpretedAnswer:
-        things, facts = self._bodies.existing(thing), self._facts
+        things, facts = self._nouns.existing(thing), self._facts
         what = set(self._nouns.find(kind).iris)
         sure = facts.confidences(things.iris)
         parts = []

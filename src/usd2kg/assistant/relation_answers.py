@@ -6,13 +6,13 @@ from usd2kg.assistant.directions import find_beside, find_between
 from usd2kg.assistant.interpreted_answer import InterpretedAnswer
 from usd2kg.assistant.measures import MeasureAnswers
 from usd2kg.assistant.phrases import RELATIONS
-from usd2kg.assistant.sentences import begin_sentence, is_plural, name_things, split_number
+from usd2kg.assistant.sentences import begin_sentence, name_things, split_number
 from usd2kg.assistant.thing_lists import ThingLists, column_of
 from usd2kg.errors import GraphError
 from usd2kg.knowledge import word_set
 from usd2kg.query import GraphStore
 from usd2kg.query.lookup import Nouns, Things, UnknownWordError
-from usd2kg.query.lookup.word_forms import split_phrase
+from usd2kg.query.lookup.word_forms import is_plural, split_phrase
 
 __all__ = ["PREPOSITIONS", "RelationAnswers"]
 
@@ -105,7 +105,7 @@ class RelationAnswers:
             named = name_things(facts, chosen)
             sentence = begin_sentence(f"{named} {verb} {place}{notes}.")
         elif what is not None and not what.iris:
-            sentence = begin_sentence(self._things.absent(what))
+            sentence = f"{begin_sentence(what.absence)}."
         else:
             named = "Nothing" if what is None or what.text == "thing" else f"No {what.text}"
             sentence = f"{named} {'are' if what is not None and is_plural(what.text) else 'is'} {place}{notes}."
@@ -131,7 +131,7 @@ class RelationAnswers:
         if relation == "inside" and self._nouns.is_whole_scene(noun):
             return Things((), noun)
         if relation == "inside" and self._nouns.lacks_room(noun):
-            raise GraphError(f"there is no {noun} in this scene")
+            raise GraphError(Things((), noun).absence)
         try:
             things = self._nouns.find(text)
         except UnknownWordError:
@@ -140,7 +140,7 @@ class RelationAnswers:
             raise
         self._things.check_kind(things)
         if not things.iris and not (relation == "inside" and self._nouns.in_area(text)):
-            raise GraphError(self._things.absent(things).removesuffix("."))
+            raise GraphError(things.absence)
         return things
 
     def _by_relation(self, name: str, text: str, anchors: Things, *, is_direct: bool) -> set[str]:
@@ -172,14 +172,14 @@ class RelationAnswers:
         Raises:
             GraphError: there are not two.
         """
-        things = self._things.found(kind)
+        things = self._nouns.existing(kind)
         if len(things.iris) != 2:
             raise GraphError(f"there are {len(things.iris)} {things.text}; expected two, or the names of two")
         one, other = map(self._facts.path, things.iris)
         return one, other
 
     def _between(self, thing: str, other: str) -> InterpretedAnswer:
-        first, second = self._things.found(thing), self._things.found(other)
+        first, second = self._nouns.existing(thing), self._nouns.existing(other)
         pairs = [(one, two) for one in first.iris for two in second.iris if one != two]
         if len(pairs) != 1:
             raise GraphError(f"{thing!r} and {other!r} are {len(pairs)} pairs of things; expected the name of one each")

@@ -4,13 +4,12 @@ from collections import Counter
 from collections.abc import Sequence
 
 from usd2kg.query.lookup import SceneFacts
-from usd2kg.query.lookup.word_forms import IRREGULAR_PLURALS, singular
+from usd2kg.query.lookup.word_forms import IRREGULAR_PLURALS
 
 __all__ = [
     "NUMBER_WORDS",
     "begin_sentence",
     "count_phrase",
-    "is_plural",
     "join_words",
     "name_things",
     "number_text",
@@ -85,15 +84,6 @@ def name_things(facts: SceneFacts, iris: Sequence[str]) -> str:
     if rest := sum(counts[kind] for kind in kinds[_MOST_NAMED:]):
         named.append(count_phrase(rest, "other thing"))
     return join_words(named)
-
-
-def is_plural(noun: str) -> bool:
-    """Return whether the last word of a noun is a plural.
-
-    >>> is_plural("wine glasses"), is_plural("glass"), is_plural("sheep")
-    (True, False, False)
-    """
-    return singular(last := noun.rsplit(maxsplit=1)[-1]) != last if noun else False
 
 
 def split_number(text: str) -> tuple[int, str]:

@@ -16,7 +16,7 @@ from usd2kg.query.lookup.colors import COLORS, has_color, has_material, is_mater
 from usd2kg.query.lookup.corrections import Spelling
 from usd2kg.query.lookup.facts import SceneFacts
 from usd2kg.query.lookup.kinds import Kinds
-from usd2kg.query.lookup.word_forms import is_noun, name_words, noun_words, singular, split_phrase
+from usd2kg.query.lookup.word_forms import is_noun, is_plural, name_words, noun_words, singular, split_phrase
 from usd2kg.words import split_identifier
 
 __all__ = ["Nouns", "Things", "UnknownWordError"]
@@ -79,6 +79,11 @@ class Things:
         """The note, to be added to a sentence."""
         return f" ({self.note})" if self.note else ""
 
+    @property
+    def absence(self) -> str:
+        """The clause that there are no such things."""
+        return f"there {'are' if is_plural(self.text) else 'is'} no {self.text} in this scene{self.suffix}"
+
 
 class Nouns:
     """Resolves noun phrases in the words of people, with the lexicon that grounded the scene."""
@@ -128,6 +133,18 @@ class Nouns:
         if len(words) > 1 and words[-1] in _FRAMES and (framed := self._find(" ".join(words[:-1]))) and framed.iris:
             return replace(framed, note=f"“{' '.join(words)}” was read as “{framed.text}”")
         return found or self._correct(words)
+
+    def existing(self, text: str) -> Things:
+        """Return the objects that a noun phrase means, at least one.
+
+        Raises:
+            UnknownWordError: a word is not understood.
+            GraphError: there are none.
+        """
+        things = self.find(text)
+        if not things.iris:
+            raise GraphError(things.absence)
+        return things
 
     def _find(self, text: str) -> Things | None:
         """Return what a phrase means as it is written; None if a word is unknown."""
@@ -291,7 +308,7 @@ class Nouns:
         if relation == "inside" and not found and (area := self.in_area(text)):
             return area
         if not anchors.iris:
-            raise GraphError(f"there is no {anchors.text} in this scene{anchors.suffix}")
+            raise GraphError(anchors.absence)
         return found
 
     def is_whole_scene(self, text: str) -> bool:
