@@ -93,6 +93,7 @@ class ComparisonAnswers:
         (is_more,) = verdicts
         equal = all(abs(one - two) <= SAME * max(one, two) for one, two in pairs)
         how = " against ".join(_range_text(low, high, measure) for low, high in ranges)
+        how += " m³" if measure is SIZE else ""
         said = f"{'Yes' if is_more else 'No'}: {'they are equal' if equal else how}."
         return InterpretedAnswer(
             f"whether {first.text} is {adjective} than {second.text}", self._facts.table(values), is_more, sentence=said
@@ -198,8 +199,8 @@ class ComparisonAnswers:
 
 
 def _range_text(low: float, high: float, measure: Measure) -> str:
-    """Return a range of measures: 31 cm, 31 cm to 1.2 m."""
-    ends = [f"{end**3:.3g} m³" if measure is SIZE else number_text(end, measure.unit) for end in (low, high)]
+    """Return a range of measures: 31 cm, 31 cm to 1.2 m; sizes without their unit, m³."""
+    ends = [f"{end**3:.3g}" if measure is SIZE else number_text(end, measure.unit) for end in (low, high)]
     return " to ".join(dict.fromkeys(ends))
 
 

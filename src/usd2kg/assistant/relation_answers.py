@@ -163,7 +163,7 @@ class RelationAnswers:
         found = [find_beside(self._facts, name, iri) for iri in anchors.iris]
         if any(one is None for one in found):
             raise GraphError(f"not known: the graph has no viewpoint, and the boxes around {anchors.text} suggest none")
-        note = " (by boxes, seen from amid the things around)"
+        note = " (by boxes, as seen from among the surrounding objects)"
         return {iri for one in found for iri in one or ()}, note
 
     def pair(self, kind: str) -> tuple[str, str]:
