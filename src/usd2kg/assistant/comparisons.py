@@ -4,7 +4,7 @@ import re
 from collections.abc import Callable
 from itertools import product
 
-from usd2kg.assistant.body_measures import COMPARED, MASS, PLACE, SAME, SIZE, SUPERLATIVES, BodyMeasures, Measure
+from usd2kg.assistant.body_measures import COMPARED, ELEVATION, MASS, SAME, SIZE, SUPERLATIVES, BodyMeasures, Measure
 from usd2kg.assistant.free_places import find_free_places
 from usd2kg.assistant.interpreted_answer import InterpretedAnswer
 from usd2kg.assistant.sentences import NUMBER_WORDS, begin_sentence, count_phrase, join_words, name_things, number_text
@@ -66,7 +66,7 @@ class ComparisonAnswers:
         amount = "" if measure is SIZE or count != "1" else f", {number_text(last, measure.unit)}"
         shown = f"The {adjective.lower()} {things.text}" if count == "1" else f"The {count} {adjective} {things.text}"
         sentence = f"{shown}{known}: {labels}{amount}{things.suffix}."
-        column = {"mass_kg" if measure is MASS else "bottom_m" if measure is PLACE else f"{measure.name}_m": values}
+        column = {"mass_kg" if measure is MASS else "bottom_m" if measure is ELEVATION else f"{measure.name}_m": values}
         return InterpretedAnswer(
             f"{adjective} {things.text}", facts.table(best, **column), number=last, sentence=sentence
         )

@@ -6,7 +6,9 @@ from functools import cache
 from importlib.resources import files
 from typing import NamedTuple
 
-__all__ = ["RELATIONS", "Phrase", "list_phrases", "match_phrase", "normalize"]
+from usd2kg.query.lookup.prepositions import preposition_pattern
+
+__all__ = ["Phrase", "list_phrases", "match_phrase", "normalize"]
 
 
 class Phrase(NamedTuple):
@@ -19,27 +21,11 @@ class Phrase(NamedTuple):
     is_english: bool = True
 
 
-RELATIONS = {
-    "left": "to the left of|on the left of|on the left side of|left of|links von|à gauche de|"
-    "a la izquierda de|a sinistra di",
-    "right": "to the right of|on the right of|on the right side of|right of|rechts von|à droite de|"
-    "a la derecha de|a destra di",
-    "front": "in front of|vor|devant|delante de|davanti a",
-    "behind": "behind|hinter|derrière|detrás de|dietro a",
-    "on": "on top of|on|upon|atop|auf|sur|sobre|encima de|en|su|sul|sulla|sullo|sui|sopra",
-    "inside": "inside of|inside|in|within|contained in|im|in der|in dem|dans|dentro de|nel|nella|nello",
-    "below": "below|beneath|underneath|under|undr|unter|sous|debajo de|bajo|sotto",
-    "above": "above|over|über|au-dessus de",
-    "near": "near to|near|next to|beside|besides|close to|by|at|around|touching|neben|près de|à côté de|junto a|"
-    "cerca de|accanto a|vicino a",
-    "attached": "hangs from|hang from|attached to|fixed to|fastened to|mounted on|mounted to|hanging from|hanging on",
-}
-"""Relation → how people say it, in five languages; longer ways come before their beginnings, such as in and on."""
 _PARAMETERS = {
     "thing": "[^?]+?",
     "other": "[^?]+?",
     "class": "[^?]+?",
-    "relation": "|".join(RELATIONS.values()),
+    "relation": preposition_pattern(),
     "distance": r"<number> ?((milli|centi)?met(er|re)s?|mm|cm|m)?",
     "amount": r"<number> ?([a-z]+|\")",
     "sides": r"<number>( ?[a-z]+)? ?(by|x|×) ?<number>( ?[a-z]+)? ?(by|x|×) ?<number> ?[a-z]+",

@@ -5,13 +5,13 @@ from collections.abc import Callable, Sequence
 from usd2kg.assistant.directions import find_beside, find_between
 from usd2kg.assistant.interpreted_answer import InterpretedAnswer
 from usd2kg.assistant.measures import MeasureAnswers
-from usd2kg.assistant.phrases import RELATIONS
 from usd2kg.assistant.sentences import begin_sentence, name_things, split_number
 from usd2kg.assistant.thing_lists import ThingLists, column_of
 from usd2kg.errors import GraphError
 from usd2kg.knowledge import word_set
 from usd2kg.query import GraphStore
 from usd2kg.query.lookup import Nouns, Things, UnknownWordError
+from usd2kg.query.lookup.prepositions import RELATION_OF
 from usd2kg.query.lookup.word_forms import is_plural, split_phrase
 
 __all__ = ["PREPOSITIONS", "RelationAnswers"]
@@ -62,7 +62,7 @@ class RelationAnswers:
         if other:
             # “Which chairs have a cushion on them?”: the anchors.
             anchors, targets = self._nouns.find(kind), set(self._nouns.find(other).iris)
-            name = _relation(relation)
+            name = RELATION_OF[relation.lower()]
             chosen = [iri for iri in anchors.iris if self._nouns.related(name, [iri], is_direct=False) & targets]
             return self._things.answer(Things(tuple(chosen), f"{anchors.text} with {other} {PREPOSITIONS[name]} them"))
         return self._related(relation, thing, kind)
@@ -82,7 +82,7 @@ class RelationAnswers:
 
     def _related(self, relation: str, thing: str, kind: str | None) -> InterpretedAnswer:
         """Return the things of a kind, or all things, in a relation to others."""
-        name, facts = _relation(relation), self._facts
+        name, facts = RELATION_OF[relation.lower()], self._facts
         what = None if kind is None else self._nouns.find(kind)
         if what is not None:
             self._things.check_kind(what)
@@ -201,8 +201,3 @@ class RelationAnswers:
         answers = [self._graph.answer("below", {"thing": self._facts.path(iri)}) for iri in anchors]
         below = {iri for answer in answers for path in column_of(answer, "path") for iri in self._facts.at_path(path)}
         return below | {iri for anchor in anchors for iri in self._measures.between_legs(anchor)}
-
-
-def _relation(text: str) -> str:
-    """Return the relation that a preposition means."""
-    return next(name for name, words in RELATIONS.items() if text.lower() in words.split("|"))

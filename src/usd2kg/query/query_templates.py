@@ -5,6 +5,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 
 from usd2kg.errors import GraphError
+from usd2kg.query.lookup.prepositions import preposition_pattern
 
 __all__ = [
     "ABOVE",
@@ -143,11 +144,11 @@ WHERE_IS = QueryTemplate(
 ALL_OF = QueryTemplate(_ALL, {"predicate": KIND_OF}, takes_kind=True)
 
 _PHRASES = (
-    (r"(what\s+(is|stands|lies)\s+)?on( top of)?\s+(?P<thing>.+)", ON),
-    (r"(what\s+is\s+)?(in|inside)( of)?\s+(?P<thing>.+)", INSIDE),
-    (r"(what\s+(is|hangs)\s+)?(attached to|fixed to|hanging (on|from)|from)\s+(?P<thing>.+)", ATTACHED),
-    (r"(what\s+is\s+)?(near|next)( to)?\s+(?P<thing>.+)", NEAR),
-    (r"(what\s+is\s+)?above\s+(?P<thing>.+)", ABOVE),
+    (rf"(what\s+(is|stands|lies)\s+)?({preposition_pattern(['on'])})\s+(?P<thing>.+)", ON),
+    (rf"(what\s+is\s+)?({preposition_pattern(['inside'])})\s+(?P<thing>.+)", INSIDE),
+    (rf"(what\s+(is\s+)?)?({preposition_pattern(['attached'])})\s+(?P<thing>.+)", ATTACHED),
+    (rf"(what\s+is\s+)?({preposition_pattern(['near'])})\s+(?P<thing>.+)", NEAR),
+    (rf"(what\s+is\s+)?({preposition_pattern(['above'])})\s+(?P<thing>.+)", ABOVE),
     (r"(what\s+are\s+)?(the\s+)?parts(\s+of|-of)\s+(?P<thing>.+)", PARTS_OF),
     (r"where(\s+is|\s+are|-is|'s)?\s+(?P<thing>.+)", WHERE_IS),
     (r"all(\s+of|-of)?\s+(?P<thing>.+)", ALL_OF),

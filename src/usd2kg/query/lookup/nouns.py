@@ -16,6 +16,7 @@ from usd2kg.query.lookup.colors import COLORS, has_color, has_material, is_mater
 from usd2kg.query.lookup.corrections import Spelling
 from usd2kg.query.lookup.facts import SceneFacts
 from usd2kg.query.lookup.kinds import Kinds
+from usd2kg.query.lookup.prepositions import RELATION_OF, preposition_pattern
 from usd2kg.query.lookup.word_forms import is_noun, is_plural, name_words, noun_words, singular, split_phrase
 from usd2kg.words import split_identifier
 
@@ -32,27 +33,10 @@ _NUMBERS = word_set("query", "number_words")
 _ROOM_NOUNS = word_set("query", "room_nouns")
 _LANGUAGES = ("de", "fr", "es", "it")
 _SIZES = {"big": max, "large": max, "huge": max, "tall": max, "small": min, "little": min, "tiny": min, "short": min}
-_RELATIONS = {
-    "on top of": "on",
-    "on": "on",
-    "upon": "on",
-    "inside of": "inside",
-    "inside": "inside",
-    "in": "inside",
-    "within": "inside",
-    "next to": "near",
-    "beside": "near",
-    "near": "near",
-    "by": "near",
-    "at": "near",
-    "above": "above",
-    "over": "above",
-    "attached to": "attached",
-    "mounted on": "attached",
-    "hanging on": "attached",
-    "from": "inside",
-}
-_RELATION = re.compile(rf"(?P<first>.+?) (?:that (?:is|are) )?(?P<relation>{'|'.join(_RELATIONS)}) (?P<second>.+)")
+_RELATIONS = ("on", "inside", "near", "above", "attached")
+"""Relations in noun phrases: cups on the table."""
+_PREPOSITIONS = preposition_pattern(_RELATIONS)
+_RELATION = re.compile(rf"(?P<first>.+?) (?:that (?:is|are) )?(?P<relation>{_PREPOSITIONS}) (?P<second>.+)")
 
 _Criterion = Callable[[], Iterable[str]]
 """Returns the objects that match a name in one way."""
@@ -286,7 +270,7 @@ class Nouns:
         first = self._find(" ".join(split_phrase(parts["first"])))
         if first is None:
             return None
-        near = self.around(_RELATIONS[parts["relation"]], parts["second"], is_direct=False)
+        near = self.around(RELATION_OF[parts["relation"]], parts["second"], is_direct=False)
         shown = f"{first.text} {parts['relation']} {parts['second']}"
         return Things(tuple(iri for iri in first.iris if iri in near), shown)
 
@@ -366,7 +350,7 @@ class Nouns:
         )
 
     def _is_known(self, word: str) -> bool:
-        return word in _RELATIONS or word in _DETERMINERS or is_noun(word)
+        return RELATION_OF.get(word) in _RELATIONS or word in _DETERMINERS or is_noun(word)
 
 
 def _head_of(label: str) -> str:
