@@ -98,7 +98,10 @@ def batch_command(
     profile: Profile = "auto",
     merge_imports: MergedImports = False,
     file_format: Annotated[
-        str, Option("--format", help="Ending of the graphs: ttl, trig, nt, nq, rdf, owl or jsonld, also with .gz.")
+        str,
+        Option(
+            "--format", help="Ending of the graphs: ttl, nt, trig, nq, rdf, owl, jsonld, ofn or graphml, also with .gz."
+        ),
     ] = "ttl",
     exclude_scenes: Annotated[
         list[str] | None,
