@@ -5,18 +5,18 @@ from pathlib import Path
 
 import pytest
 
-from usd2kg.batch import Manifest, Record, Status
+from usd2kg.batch import JobStatus, Manifest, Record
 from usd2kg.batch.manifest import SourceState
 from usd2kg.errors import OutputError
 
-DONE = Record("a/b.usd", Status.DONE, "f00", SourceState(10, 20), "a/b.ttl", "abc", summary={"objects": 3})
-FAILED = replace(DONE, scene="ü\u2028c.usd", status=Status.FAILED, output="", sha256="", error="broken", summary={})
+DONE = Record("a/b.usd", JobStatus.DONE, "f00", SourceState(10, 20), "a/b.ttl", "abc", summary={"objects": 3})
+FAILED = replace(DONE, scene="ü\u2028c.usd", status=JobStatus.FAILED, output="", sha256="", error="broken", summary={})
 
 
 def test_records_are_read_back_and_the_last_counts(tmp_path: Path):
     path = tmp_path / "m.jsonl"
     with Manifest(path) as manifest:
-        for record in (replace(DONE, status=Status.FAILED, error="first"), FAILED, DONE):
+        for record in (replace(DONE, status=JobStatus.FAILED, error="first"), FAILED, DONE):
             manifest.add(record)
     with Manifest(path) as manifest:
         assert manifest.get("a/b.usd") == DONE

@@ -17,7 +17,7 @@ from usd2kg.demo import demo_scene
 from usd2kg.errors import GroundingError
 from usd2kg.grounding import ground
 from usd2kg.grounding.lexical.alignment.alignment_file import AlignmentFile, format_alignment, read_alignment_file
-from usd2kg.grounding.lexical.alignment.default_root import build_rooted_lexicon
+from usd2kg.grounding.lexical.alignment.artificial_root import build_rooted_lexicon
 from usd2kg.grounding.lexical.concepts.home_names import home_names
 from usd2kg.grounding.lexical.concepts.taxonomy import load_taxonomy
 from usd2kg.grounding.lexical.grounder import LexicalGrounder

@@ -37,7 +37,7 @@ class ComparisonAnswers:
         self._bodies = BodyMeasures(facts)
 
     def find(self, question: str) -> Callable[..., InterpretedAnswer] | None:
-        """Return the method that answers a frame; None if it is another's."""
+        """Return the method that answers a question type; None if it is another's."""
         handlers: dict[str, Callable[..., InterpretedAnswer]] = {
             "superlative": self._superlative,
             "compare": self._compare,

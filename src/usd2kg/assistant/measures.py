@@ -33,7 +33,7 @@ class MeasureAnswers:
         self._bodies = BodyMeasures(facts)
 
     def find(self, question: str) -> Handler | None:
-        """Return the method that answers a frame; None if it is another's."""
+        """Return the method that answers a question type; None if it is another's."""
         handlers: dict[str, Handler] = {
             "measure": self._measure,
             "weigh": lambda thing: self._measure(thing, "heavy"),

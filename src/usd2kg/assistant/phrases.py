@@ -1,4 +1,4 @@
-"""match_phrase: question → frame and its parameters, by the patterns in `phrases.txt`."""
+"""match_phrase: question → question type and its parameters, by the patterns in `phrases.txt`."""
 
 import re
 from collections.abc import Mapping, Sequence
@@ -49,7 +49,7 @@ _COMMENT = re.compile(
 )
 """A remark that nothing is left out, which changes no question: `doors, folding doors included`."""
 _HEADINGS = {"# German, French, Spanish and Italian.": False, "# English.": True}
-"""Heading of frames → whether they are English."""
+"""Heading of patterns → whether they are English."""
 _APOSTROPHE = "\u2019"
 
 

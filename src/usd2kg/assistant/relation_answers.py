@@ -44,7 +44,7 @@ class RelationAnswers:
         self._things = ThingLists(graph.facts, nouns)
 
     def find(self, question: str) -> Callable[..., InterpretedAnswer] | None:
-        """Return the method that answers a frame; None if it is another's."""
+        """Return the method that answers a question type; None if it is another's."""
         handlers: dict[str, Callable[..., InterpretedAnswer]] = {
             "between": self._between,
             "between-two": lambda kind: self._between(*self.pair(kind)),

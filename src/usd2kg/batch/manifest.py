@@ -6,16 +6,15 @@ import os
 from collections.abc import Iterator, Mapping
 from dataclasses import asdict, dataclass, field
 from enum import StrEnum
-from hashlib import sha256
 from pathlib import Path
 from typing import Any, Self
 
 from usd2kg.errors import OutputError
 
-__all__ = ["Manifest", "Record", "SourceState", "Status", "hash_file"]
+__all__ = ["JobStatus", "Manifest", "Record", "SourceState"]
 
 
-class Status(StrEnum):
+class JobStatus(StrEnum):
     """How the last attempt ended."""
 
     DONE = "done"
@@ -42,7 +41,7 @@ class Record:
 
     scene: str
     """Its name in the batch."""
-    status: Status
+    status: JobStatus
     options: str
     """Hash of the options and the ontology."""
     source: SourceState
@@ -120,21 +119,12 @@ class Manifest:
         self.close()
 
 
-def hash_file(path: Path) -> str:
-    """Return the SHA-256 of a file as hexadecimal digits."""
-    with path.open("rb") as file:
-        digest = sha256()
-        while block := file.read(1 << 20):
-            digest.update(block)
-    return digest.hexdigest()
-
-
 def _read(path: Path, text: str) -> Iterator[Record]:
     for number, line in enumerate(text.splitlines(), 1):
         try:
             values = json.loads(line)
             source = SourceState(**values.pop("source"))
-            yield Record(status=Status(values.pop("status")), source=source, **values)
+            yield Record(status=JobStatus(values.pop("status")), source=source, **values)
         except (ValueError, TypeError, KeyError, AttributeError) as error:
             raise OutputError(
                 f"{path}: line {number} is no record of a batch ({error}); choose another output folder"

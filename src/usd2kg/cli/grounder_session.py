@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from usd2kg.ontology import ClassIRI, TBox
     from usd2kg.scene import ReadOptions, Scene
 
-__all__ = ["GrounderSession", "open_session"]
+__all__ = ["GrounderSession", "open_grounder_session"]
 
 
 @dataclass(frozen=True)
@@ -58,7 +58,7 @@ class GrounderSession:
 
 
 @contextmanager
-def open_session(
+def open_grounder_session(
     options: GroundingOptions,
     scene: "Scene",
     tbox: "TBox",

@@ -65,7 +65,7 @@ def concepts_named(noun: str) -> tuple[str, ...]:
     """Return the IRIs of the concepts that a noun or compound may mean, the usual one first; empty if it is unknown."""
     from usd2kg.grounding.lexical import recognition  # noqa: PLC0415
 
-    return recognition.concepts_named(noun)
+    return recognition.concepts_of_noun(noun)
 
 
 def _classes_by_words(

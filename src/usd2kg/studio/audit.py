@@ -12,7 +12,7 @@ from typing import Any
 from usd2kg.evaluation import Score
 from usd2kg.evaluation.metrics.calibration import calibration_error, reliability_bins
 from usd2kg.evaluation.metrics.intervals import wilson_interval
-from usd2kg.grounding.lexical.alignment.default_root import NO_CLASS_IRI
+from usd2kg.grounding.lexical.alignment.artificial_root import NO_CLASS_IRI
 from usd2kg.studio.object_review import ObjectReview
 from usd2kg.studio.settings import AUDIT
 from usd2kg.studio.verdicts import Event, Suggestion, VerdictKind

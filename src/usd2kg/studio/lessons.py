@@ -10,7 +10,7 @@ from dataclasses import dataclass, replace
 
 from usd2kg.grounding import Decision, Grounding
 from usd2kg.grounding.lexical.alignment.alignment_rows import AlignmentRow, RowKind, format_rows
-from usd2kg.grounding.lexical.alignment.default_root import NO_CLASS_IRI
+from usd2kg.grounding.lexical.alignment.artificial_root import NO_CLASS_IRI
 from usd2kg.grounding.lexical.alignment.terms import TermKind
 from usd2kg.ontology import ClassIRI, TBox
 from usd2kg.scene import Scene

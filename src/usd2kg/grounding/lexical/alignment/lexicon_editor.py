@@ -6,7 +6,7 @@ from functools import cached_property
 
 from usd2kg.errors import GroundingError
 from usd2kg.grounding.lexical.alignment.alignment_rows import SHIPPED_LISTS, AlignmentRow, RowKind, written_class
-from usd2kg.grounding.lexical.alignment.default_root import NO_CLASS_IRI
+from usd2kg.grounding.lexical.alignment.artificial_root import NO_CLASS_IRI
 from usd2kg.grounding.lexical.alignment.lexicon import CategoryMember, Lexicon, make_lexicon
 from usd2kg.grounding.lexical.alignment.terms import AlignedClass, Term, TermKind, term_key
 from usd2kg.grounding.lexical.concepts.senses import usual_sense
