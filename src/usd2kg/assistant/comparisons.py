@@ -7,25 +7,22 @@ from itertools import product
 from usd2kg.assistant.body_measures import COMPARED, ELEVATION, MASS, SAME, SIZE, SUPERLATIVES, BodyMeasures, Measure
 from usd2kg.assistant.free_places import find_free_places
 from usd2kg.assistant.interpreted_answer import InterpretedAnswer
-from usd2kg.assistant.sentences import NUMBER_WORDS, begin_sentence, count_phrase, join_words, name_things, number_text
+from usd2kg.assistant.sentences import (
+    NUMBER_WORDS,
+    begin_sentence,
+    count_phrase,
+    join_few,
+    name_things,
+    number_text,
+    yes_or_no,
+)
+from usd2kg.assistant.units import UNIT_SIZES, UNIT_SYMBOLS
 from usd2kg.errors import GraphError
-from usd2kg.query.lookup import Nouns, SceneFacts, Things
+from usd2kg.query.lookup import Nouns, SceneFacts
 
 __all__ = ["ComparisonAnswers"]
 
 _AMOUNT = re.compile(r"(?P<number>\d*\.?\d+) ?(?P<unit>[a-z\"]*)", re.IGNORECASE)
-_UNITS = {
-    **dict.fromkeys(("m", "metre", "metres", "meter", "meters"), ("m", 1.0)),
-    **dict.fromkeys(("cm", "centimetre", "centimetres", "centimeter", "centimeters"), ("m", 0.01)),
-    **dict.fromkeys(("mm", "millimetre", "millimetres", "millimeter", "millimeters"), ("m", 0.001)),
-    **dict.fromkeys(("in", "inch", "inches", '"'), ("m", 0.0254)),
-    **dict.fromkeys(("ft", "foot", "feet"), ("m", 0.3048)),
-    **dict.fromkeys(("kg", "kilo", "kilos", "kilogram", "kilograms"), ("kg", 1.0)),
-    **dict.fromkeys(("g", "gram", "grams"), ("kg", 0.001)),
-    **dict.fromkeys(("lb", "lbs", "pound", "pounds"), ("kg", 0.45359237)),
-}
-"""Unit in a question → unit of the measures, and its size in that."""
-_MOST_NAMED = 4
 
 
 class ComparisonAnswers:
@@ -62,7 +59,7 @@ class ComparisonAnswers:
         known = (
             f" of the {len(values)} whose mass is known" if measure is MASS and len(values) < len(things.iris) else ""
         )
-        labels = join_words([facts.label(iri) for iri in best[:_MOST_NAMED]])
+        labels = join_few([facts.label(iri) for iri in best])
         amount = "" if measure is SIZE or count != "1" else f", {number_text(last, measure.unit)}"
         shown = f"The {adjective.lower()} {things.text}" if count == "1" else f"The {count} {adjective} {things.text}"
         sentence = f"{shown}{known}: {labels}{amount}{things.suffix}."
@@ -85,7 +82,9 @@ class ComparisonAnswers:
         pairs = list(product(*ranges))
         verdicts = {sign * (one - two) > SAME * max(one, two) for one, two in pairs}
         if len(verdicts) > 1:
-            named = " and ".join(self._candidates(things) for things in (first, second) if len(things.iris) > 1)
+            named = " and ".join(
+                join_few([*map(self._facts.label, things.iris)]) for things in (first, second) if len(things.iris) > 1
+            )
             raise GraphError(
                 f"not known: some {first.text} are {adjective} than some {second.text}, others are not; "
                 f"expected the names of two things; there are {named}"
@@ -94,16 +93,10 @@ class ComparisonAnswers:
         equal = all(abs(one - two) <= SAME * max(one, two) for one, two in pairs)
         how = " against ".join(_range_text(low, high, measure) for low, high in ranges)
         how += " m³" if measure is SIZE else ""
-        said = f"{'Yes' if is_more else 'No'}: {'they are equal' if equal else how}."
+        said = yes_or_no(is_more, f"{'they are equal' if equal else how}.")
         return InterpretedAnswer(
             f"whether {first.text} is {adjective} than {second.text}", self._facts.table(values), is_more, sentence=said
         )
-
-    def _candidates(self, things: Things) -> str:
-        """Return the names of the first few of some things, and the number of the others."""
-        labels = [self._facts.label(iri) for iri in things.iris]
-        rest = len(labels) - _MOST_NAMED
-        return join_words([*labels[:_MOST_NAMED], *([f"{rest} more"] if rest > 0 else [])])
 
     def _choose(self, thing: str, adjective: str, other: str) -> InterpretedAnswer:
         """Return which of two things is more of something."""
@@ -141,7 +134,7 @@ class ComparisonAnswers:
             f"whether there are {adjective} {first.text} than {second.text}",
             self._facts.table((*first.iris, *second.iris)),
             is_so,
-            sentence=f"{'Yes' if is_so else 'No'}: there are {counts}{first.suffix}{second.suffix}.",
+            sentence=yes_or_no(is_so, f"there are {counts}{first.suffix}{second.suffix}."),
         )
 
     def _limit(self, adjective: str, amount: str, kind: str = "things") -> InterpretedAnswer:
@@ -193,7 +186,7 @@ class ComparisonAnswers:
             where = f"room for {name}{size} on {facts.label(places[0].surface)}, at ({x:g}, {y:g}, {z:g}) m"
         else:
             where = f"no room for {name}{size} on {surfaces.text}"
-        sentence = f"{'Yes' if places else 'No'}: there is {where}{surfaces.suffix}."
+        sentence = yes_or_no(bool(places), f"there is {where}{surfaces.suffix}.")
         understood = f"whether {name} fits on {surfaces.text}"
         return InterpretedAnswer(understood, facts.table(spots, center_m=spots), bool(places), sentence=sentence)
 
@@ -211,11 +204,12 @@ def _read_amount(text: str) -> tuple[float, str]:
     ((0.4, 'm'), (0.5, 'kg'))
     """
     found = _AMOUNT.fullmatch(text.strip())
-    if found is None or found["unit"].lower() not in _UNITS:
+    symbol = UNIT_SYMBOLS.get(found["unit"].lower()) if found is not None else None
+    if found is None or symbol is None:
         raise GraphError(
             f"{text!r} is not understood as an amount; expected a number with a unit, such as 40 cm or 2 kg"
         )
-    unit, size = _UNITS[found["unit"].lower()]
+    unit, size = UNIT_SIZES[symbol]
     return float(found["number"]) * size, unit
 
 

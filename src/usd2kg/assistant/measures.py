@@ -7,7 +7,7 @@ import numpy as np
 from usd2kg.assistant.body_measures import MASS, MEASURES, SIZE, BodyMeasures
 from usd2kg.assistant.free_places import find_free_places
 from usd2kg.assistant.interpreted_answer import InterpretedAnswer
-from usd2kg.assistant.sentences import begin_sentence, join_words, name_things, number_text
+from usd2kg.assistant.sentences import begin_sentence, join_few, join_words, name_things, number_text
 from usd2kg.assistant.settings import PLACING
 from usd2kg.errors import GraphError
 from usd2kg.knowledge import word_map, word_set
@@ -67,7 +67,7 @@ class MeasureAnswers:
             else:
                 parts.append(f"{facts.label(iri)} is {number_text(value, 'm')} {measure.name}")
         column = {f"{'mass_kg' if measure is MASS else f'{measure.name}_m'}": values}
-        sentence = f"{join_words(parts[:4])}{f' and {len(parts) - 4} more' if len(parts) > 4 else ''}{things.suffix}."
+        sentence = f"{join_few(parts)}{things.suffix}."
         return InterpretedAnswer(
             f"how {measure.name}: {things.text}",
             facts.table(values, **column),
@@ -82,7 +82,7 @@ class MeasureAnswers:
             raise GraphError(f"not known: the graph has no boxes for {first.text} and {second.text}")
         facts = self._facts
         parts = [f"{facts.label(iri)} is {number_text(gap, 'm')} from {second.text}" for iri, gap in gaps.items()]
-        sentence = f"{join_words(parts[:4])}, from side to side{first.suffix}{second.suffix}."
+        sentence = f"{join_few(parts)}, from side to side{first.suffix}{second.suffix}."
         table = facts.table(sorted(gaps, key=lambda iri: gaps[iri]), gap_m=gaps)
         return InterpretedAnswer(
             f"the gap between {first.text} and {second.text}, in metres",
@@ -103,7 +103,7 @@ class MeasureAnswers:
         return InterpretedAnswer(
             f"colour of {things.text}",
             facts.table(colors, color=colors),
-            sentence=f"{join_words(parts[:4])}{things.suffix}.",
+            sentence=f"{join_few(parts)}{things.suffix}.",
         )
 
     def _material(self, thing: str) -> InterpretedAnswer:
@@ -122,7 +122,7 @@ class MeasureAnswers:
         return InterpretedAnswer(
             f"material of {things.text}",
             facts.table(found, material=found),
-            sentence=f"{join_words(parts[:4])}{things.suffix}. The names of materials say how things look.",
+            sentence=f"{join_few(parts)}{things.suffix}. The names of materials say how things look.",
         )
 
     def _are_like(self, kind: str, adjective: str) -> InterpretedAnswer:
@@ -249,7 +249,7 @@ class MeasureAnswers:
             facts.table(things.iris, confidence=sure),
             all(iri in what for iri in things.iris),
             number=next(iter(sure.values()), None),
-            sentence=f"{join_words(parts[:4])}.",
+            sentence=f"{join_few(parts)}.",
         )
 
     def _unknown(self) -> InterpretedAnswer:

@@ -19,9 +19,12 @@ from usd2kg.assistant.sentences import (
     number_text,
     split_number,
     the_thing,
+    yes_or_no,
 )
+from usd2kg.assistant.settings import SENTENCES
 from usd2kg.assistant.swept_space import find_in_the_way
 from usd2kg.assistant.thing_lists import ThingLists
+from usd2kg.assistant.units import UNIT_SYMBOLS
 from usd2kg.errors import GraphError
 from usd2kg.knowledge import word_map, word_set
 from usd2kg.query import Answer, GraphStore
@@ -32,9 +35,6 @@ from usd2kg.query.questions import list_questions
 from usd2kg.query.unicode_text import check_text
 
 __all__ = ["ask_offline"]
-
-_UNITS = (("centimet", "cm"), ("millimet", "mm"), ("met", "m"), ("kilo", "kg"), ("gram", "g"))
-"""Beginning of a unit's name → symbol, tried in order."""
 
 
 def ask_offline(graph: GraphStore, text: str, since: Path | None = None) -> InterpretedAnswer:
@@ -144,7 +144,7 @@ class _Answerer:
         self._things.check_kind(things)
         answer = self._things.answer(things)
         yes = len(things.iris) >= count
-        said = f"{'Yes' if yes else 'No'}: {answer.sentence[0].lower()}{answer.sentence[1:]}"
+        said = yes_or_no(yes, answer.sentence)
         return InterpretedAnswer(f"whether there is {things.text}", answer.answer, yes, sentence=said)
 
     # Places and parts.
@@ -170,7 +170,9 @@ class _Answerer:
                 x, y, z = (body.lower + body.upper) / 2
                 said.append(f"at ({x:.2f}, {y:.2f}, {z:.2f}) m")
             parts.append(f"{facts.label(iri)} is {', '.join(said) or 'somewhere, without a known place'}")
-        sentence = f"{'; '.join(parts[:4])}{f'; and {len(parts) - 4} more' if len(parts) > 4 else ''}{things.suffix}."
+        rest = len(parts) - SENTENCES.max_named
+        shown = "; ".join([*parts[: SENTENCES.max_named], *([f"and {rest} more"] if rest > 0 else [])])
+        sentence = f"{shown}{things.suffix}."
         named = tuple(dict.fromkeys(facts.path(iri) for iri in places))
         return InterpretedAnswer(
             f"where: {things.text}", self._things.located(things.iris), sentence=sentence, places=named
@@ -208,7 +210,7 @@ class _Answerer:
     def _has_parts(self, kind: str, thing: str) -> InterpretedAnswer:
         found = self._parts_of(kind, thing)
         yes = bool(found.number)
-        sentence = f"{'Yes' if yes else 'No'}: {found.sentence[0].lower()}{found.sentence[1:]}"
+        sentence = yes_or_no(yes, found.sentence)
         return InterpretedAnswer(f"whether there are {found.understood}", found.answer, yes, sentence=sentence)
 
     def _parts(self, thing: str) -> InterpretedAnswer:
@@ -316,5 +318,5 @@ def _normalize(name: str, value: str) -> str:
     if name in {"distance", "mass"}:
         number = value.rstrip("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ ")
         unit = value[len(number) :].strip().lower()
-        return f"{number} {next((symbol for prefix, symbol in _UNITS if unit.startswith(prefix)), unit)}".strip()
+        return f"{number} {UNIT_SYMBOLS.get(unit, unit)}".strip()
     return value

@@ -5,7 +5,7 @@ from collections.abc import Callable, Sequence
 from usd2kg.assistant.directions import find_beside, find_between
 from usd2kg.assistant.interpreted_answer import InterpretedAnswer
 from usd2kg.assistant.measures import MeasureAnswers
-from usd2kg.assistant.sentences import begin_sentence, name_things, split_number
+from usd2kg.assistant.sentences import begin_sentence, name_things, split_number, yes_or_no
 from usd2kg.assistant.thing_lists import ThingLists, column_of
 from usd2kg.errors import GraphError
 from usd2kg.knowledge import word_set
@@ -77,7 +77,7 @@ class RelationAnswers:
         count, kind = split_number(kind)
         found = self._related(relation, thing, kind)
         yes = len(found.answer.rows) >= count
-        said = f"{'Yes' if yes else 'No'}: {found.sentence[0].lower()}{found.sentence[1:]}"
+        said = yes_or_no(yes, found.sentence)
         return InterpretedAnswer(f"whether {found.understood}", found.answer, yes, sentence=said)
 
     def _related(self, relation: str, thing: str, kind: str | None) -> InterpretedAnswer:

@@ -3,14 +3,12 @@
 from collections.abc import Sequence
 
 from usd2kg.assistant.interpreted_answer import InterpretedAnswer
-from usd2kg.assistant.sentences import begin_sentence, count_phrase, join_words, name_things, the_thing
+from usd2kg.assistant.sentences import begin_sentence, count_phrase, join_few, name_things, the_thing
 from usd2kg.errors import GraphError
 from usd2kg.query import Answer
 from usd2kg.query.lookup import Nouns, SceneFacts, Things
 
 __all__ = ["ThingLists", "column_of"]
-
-_MOST_NAMED = 4
 
 
 class ThingLists:
@@ -36,7 +34,7 @@ class ThingLists:
             GraphError: the words only occur in the names of other things.
         """
         if things.is_by_name:
-            labels = join_words([self._facts.label(iri) for iri in things.iris[:_MOST_NAMED]])
+            labels = join_few([self._facts.label(iri) for iri in things.iris])
             raise GraphError(f"not known: nothing is known to be {things.text}, which is only in the name of {labels}")
 
     def located(self, iris: Sequence[str]) -> Answer:

@@ -1,7 +1,7 @@
 """usd2kg query: answers from a graph."""
 
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import TYPE_CHECKING, Annotated
 
 from typer import Argument, Option
 
@@ -15,7 +15,7 @@ if TYPE_CHECKING:
 
     from usd2kg.query import Answer, GraphStore
 
-__all__ = ["answer_rows", "answer_text", "ask_scenes", "query_command", "read_sparql"]
+__all__ = ["answer_text", "ask_scenes", "query_command", "read_sparql"]
 
 
 def query_command(
@@ -73,7 +73,7 @@ def query_command(
     if explain:
         emit(f"{with_prefixes(answer.sparql)}\n")
     elif json:
-        print_json(answer_rows(answer))
+        print_json(answer.as_dicts())
     else:
         emit(answer_text(answer))
 
@@ -162,11 +162,6 @@ def read_sparql(text: str) -> str:
         return Path(text[1:]).read_text("utf-8")
     except (OSError, UnicodeDecodeError) as error:
         raise GraphError(f"{text[1:]}: cannot be read as a query ({error})") from error
-
-
-def answer_rows(answer: "Answer") -> list[dict[str, Any]]:
-    """Return the rows of an answer by column."""
-    return [dict(zip(answer.columns, row, strict=True)) for row in answer.values]
 
 
 def answer_text(answer: "Answer", limit: int | None = None) -> str:

@@ -4,8 +4,8 @@ from collections.abc import Iterable, Mapping
 from pathlib import Path
 from typing import NamedTuple
 
-from usd2kg.diff.graph_states import parse_numbers
 from usd2kg.errors import GroundingError
+from usd2kg.graph.literal_numbers import parse_numbers
 from usd2kg.grounding import Prediction, Status, read_grounding
 from usd2kg.grounding.sssom_decisions import NO_TERM, VERDICT, is_sssom
 from usd2kg.grounding.sssom_file import SssomFile, SssomRow, read_sssom_file

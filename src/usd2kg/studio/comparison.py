@@ -2,10 +2,10 @@
 
 import threading
 from collections import Counter
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterator, Mapping
 from typing import Any
 
-from usd2kg.diff import Change, Changes, Link, ObjectState, compare_objects, describe_match
+from usd2kg.diff import Change, Changes, ObjectState, compare_objects, describe_match
 from usd2kg.studio.class_claims import ClassClaim, class_name
 from usd2kg.studio.object_review import ObjectReview
 from usd2kg.studio.other_version import OtherVersion, VersionSource, compared_states
@@ -90,8 +90,8 @@ class Comparison:
                 "turned_degrees": round(change.turned_degrees, 2),
                 "sizes": None if change.resized is None else change.resized,
                 "masses": change.mass,
-                "gained": _links(change.gained),
-                "lost": _links(change.lost),
+                "gained": [link._asdict() for link in change.gained],
+                "lost": [link._asdict() for link in change.lost],
                 "reason": describe_match(change.match) if change.is_renamed else "",
             }
 
@@ -153,10 +153,6 @@ def _kinds(change: Change) -> Iterator[str]:
         "relations": change.gained or change.lost,
     }
     return (kind for kind, found in holds.items() if found)
-
-
-def _links(links: Iterable[Link]) -> list[dict[str, str]]:
-    return [{"kind": link.kind, "anchor": link.anchor} for link in links]
 
 
 def _box(state: ObjectState) -> list[float] | None:
