@@ -43,7 +43,7 @@ def test_a_torn_last_line_is_dropped(tmp_path: Path, cut: int):
 def test_another_file_is_refused(tmp_path: Path, line: str):
     path = tmp_path / "m.jsonl"
     path.write_text(f"{line}\n")
-    with pytest.raises(OutputError, match=r"m\.jsonl: line 1 is no record of a batch"):
+    with pytest.raises(OutputError, match=r"m\.jsonl: line 1 is not a record of a batch"):
         Manifest(path)
     assert path.read_text() == f"{line}\n"
 
@@ -61,5 +61,5 @@ def test_a_full_disk_is_an_error(tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 
 def test_a_device_is_refused(tmp_path: Path):
     (tmp_path / "m.jsonl").symlink_to("/dev/zero")
-    with pytest.raises(OutputError, match="is no file"):
+    with pytest.raises(OutputError, match="is not a file"):
         Manifest(tmp_path / "m.jsonl")

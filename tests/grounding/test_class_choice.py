@@ -77,7 +77,7 @@ class TestAbstaining:
         assert choose_superclass({CUP: 0.8, BOWL: 0.4}, home_tbox) == (CUP if cup > crockery else CROCKERY)
 
     def test_confidence_of_a_superclass_worked_by_hand(self, home_tbox: TBox) -> None:
-        # P(Cup) = P(Bowl) = P(Knife) = 1/3. Cup has 0.4, so the others have 0.6 / 3 each, and Knife is no crockery.
+        # P(Cup) = P(Bowl) = P(Knife) = 1/3. Cup has 0.4, so the others have 0.6 / 3 each, and Knife is not crockery.
         scores = {CUP: 0.5, BOWL: 0.5, KNIFE: 0.5}
         assert superclass_confidence(CROCKERY, CUP, 0.4, scores, home_tbox) == pytest.approx(0.6)
         assert superclass_confidence(KNIFE, CUP, 0.4, scores, home_tbox) == pytest.approx(0.2)

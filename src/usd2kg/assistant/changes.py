@@ -110,7 +110,7 @@ def _moved(changes: Changes) -> tuple[list[Row], str]:
 
 
 def _resized(changes: Changes) -> tuple[list[Row], str]:
-    # A box that grew because something appeared below it is no change of its own.
+    # A box that grew because something appeared below it is not a change of its own.
     own = [change for change in changes.changed if change.resized is not None and not change.holds_changes]
     sizes = [tuple(map(_numbers, change.resized or ())) for change in own]
     rows: list[Row] = [

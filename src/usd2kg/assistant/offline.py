@@ -288,7 +288,7 @@ class _Answerer:
     def _nearest(self, understood: str, values: Mapping[str, str]) -> InterpretedAnswer:
         anchors, facts = self._nouns.existing(values["thing"]), self._facts
         what = self._nouns.find(values.get("class", "things"))
-        # What holds a thing, and the shell of a room, is no neighbour of it.
+        # What holds a thing, and the shell of a room, is not a neighbour of it.
         holders = {one for iri in anchors.iris for name in ("on", "inside", "room") for one in facts.anchors(name, iri)}
         holders |= {iri for noun in word_set("assistant", "shells") for iri in self._nouns.find(noun).iris}
         candidates = what.iris if "class" in values else [iri for iri in what.iris if iri not in holders]

@@ -47,7 +47,7 @@ _COMMENT = re.compile(
     r",\s+(?:[^,]+ (?:together|altogether|included|combined|counted|in total)|(?:including|counting) [^,]+)$",
     re.IGNORECASE,
 )
-"""A remark that nothing is left out, which changes no question: `doors, folding doors included`."""
+"""A remark on what is counted, which does not change the question: `doors, folding doors included`."""
 _HEADINGS = {"# German, French, Spanish and Italian.": False, "# English.": True}
 """Heading of patterns → whether they are English."""
 _APOSTROPHE = "\u2019"

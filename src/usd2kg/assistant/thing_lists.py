@@ -28,7 +28,7 @@ class ThingLists:
         return InterpretedAnswer(f"all {things.text}", table, sentence=sentence)
 
     def check_kind(self, things: Things) -> None:
-        """Check that things are what the words say, and not only named after it.
+        """Check that things are of the kind that the words name; a shoe rack is not a shoe.
 
         Raises:
             GraphError: the words only occur in the names of other things.
@@ -49,7 +49,7 @@ class ThingLists:
         return facts.table(facts.sorted(iris), on=on, inside=inside)
 
     def the(self, things: Things) -> str:
-        """Return things as they are named after they were found: by kind and label, or by number."""
+        """Return the noun phrase for things in an answer: kind and label of one, number and kind of several."""
         labels = [self._facts.label(iri) for iri in things.iris]
         if not labels:
             return things.text

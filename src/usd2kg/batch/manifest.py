@@ -68,12 +68,12 @@ class Manifest:
         """Open the manifest, or start it.
 
         Raises:
-            OutputError: the file is no manifest, or cannot be written.
+            OutputError: the file is not a manifest, or cannot be written.
         """
         self.path = path
         self._records: dict[str, Record] = {}
         if path.exists() and not path.is_file():
-            raise OutputError(f"{path}: is no file; choose another output folder")
+            raise OutputError(f"{path}: is not a file; choose another output folder")
         try:
             data = path.read_bytes() if path.exists() else b""
             whole = data[: data.rfind(b"\n") + 1]
@@ -127,7 +127,7 @@ def _read(path: Path, text: str) -> Iterator[Record]:
             yield Record(status=JobStatus(values.pop("status")), source=source, **values)
         except (ValueError, TypeError, KeyError, AttributeError) as error:
             raise OutputError(
-                f"{path}: line {number} is no record of a batch ({error}); choose another output folder"
+                f"{path}: line {number} is not a record of a batch ({error}); choose another output folder"
             ) from error
 
 

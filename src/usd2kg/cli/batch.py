@@ -209,7 +209,7 @@ def _loader(store: "SceneStore | None") -> "Callable[[Job], None]":
 
 
 def _hash_options(task: _BuildTask, tbox: "TBox", ending: str, base: str) -> str:
-    """Return a hash of what the graphs depend on besides the scenes: options, their files, ontology and version."""
+    """Return a hash of what the graphs depend on apart from the scenes: options, their files, ontology and version."""
     from importlib.metadata import version  # noqa: PLC0415
 
     steps = task.steps

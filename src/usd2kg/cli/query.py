@@ -58,7 +58,7 @@ def query_command(
             "or --sparql with a query"
         )
     if given and question is None:
-        raise GraphError("query: --with sets a parameter of --question; expected --question ID beside it")
+        raise GraphError("query: --with sets a parameter of --question; expected --question ID with it")
     if sparql is not None and is_store(graph):
         # A server evaluates the query itself; its graphs may exceed the memory here.
         store = open_store(graph)

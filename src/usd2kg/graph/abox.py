@@ -266,7 +266,7 @@ class _GraphBuilder:
             about.extend(self.annotate(triples[0], relation_annotations(relation)))
 
     def _rooms(self) -> Iterator[Triple]:
-        """Yield the rooms that are no objects: group prims, and rooms without a prim."""
+        """Yield the rooms that are not objects: group prims, and rooms without a prim."""
         anchors = (r.anchor for found in self.relations.values() for r in found if r.kind in ROOM_KINDS)
         for path in dict.fromkeys(anchors):
             if path not in self.scene.by_path and path not in self.rooms:

@@ -95,7 +95,7 @@ def _agrees(concept: str, by_words: ClassIRI | None, chosen: ClassIRI | None, tb
         return True
     if not tbox.is_subclass(chosen, by_words):
         return False
-    # The words mean only a coarse class: of the artifacts, a ball is no bowl.
+    # The words mean only a coarse class: of the artifacts, a ball is not a bowl.
     meant = concepts_named(tbox.by_iri[chosen].label)[:1]
     return not meant or _is_below(concept, meant[0]) or _is_below(meant[0], concept)
 

@@ -263,7 +263,7 @@ class _Api:
     async def _ground_again(self, request: Request) -> Response:
         body = await read_body(request)
         changes = await asyncio.to_thread(self._session.ground_again)
-        # Suggestions are no events of the journal: the other pages load all states.
+        # Suggestions are not events of the journal: the other pages load all states.
         self._events.publish("suggestions", {"reviewer": _reviewer(body), "page": field(body, "page", str, "")})
         self._outputs.notify()
         found = [

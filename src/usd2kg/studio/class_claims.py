@@ -62,7 +62,7 @@ def read_claims(path: Path, tbox: TBox) -> dict[str, ClassClaim]:
 
 
 def _settled(rows: Iterable[SssomRow]) -> list[SssomRow]:
-    """Return the valid rows: of a journal the last one of each prim, if it settles the class."""
+    """Return the current rows: of a journal the last one of each prim, if it settles the class."""
     last = {row.cells["prim_path"]: row for row in rows if not row.cells.get("predicate_modifier")}
     return [row for row in last.values() if row.cells.get(VERDICT) not in _UNSETTLED]
 

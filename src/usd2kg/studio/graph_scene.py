@@ -105,7 +105,7 @@ def _read_scene(path: Path, index: GraphIndex, stage: Any, stated: Sequence[Obje
             is_authored=True,
         ),
         time=time[0] if time else None,
-        # A graph does not state how many prims are no objects.
+        # A graph does not state how many prims are not objects.
         prim_count=len(stated),
         objects=tuple(_read_object(each, index, _parent_in(known, each.prim_path)) for each in stated),
         left_out={},

@@ -1,7 +1,7 @@
 """Journal: the decisions of reviewers in an SSSOM/TSV file that only grows.
 
 Each row is one change of one object. The file is a valid input of `--decisions`: of several rows about a prim, the last
-is valid. Rows of one event are written at once and are on disk before `append` returns. A last row without line break,
+is current. Rows of one event are written at once and are on disk before `append` returns. A last row without line break,
 which a crash can leave, is dropped.
 """
 
@@ -93,7 +93,7 @@ class Journal:
 
         Args:
             event: the event; its number follows that of the last one.
-            before: prim path → verdict that was valid before.
+            before: prim path → verdict that was current before.
 
         Raises:
             OutputError: the disk is full or the file is gone; nothing was recorded.

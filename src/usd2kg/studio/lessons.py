@@ -40,7 +40,7 @@ class Lesson:
 def find_lessons(
     suggestions: Grounding, decisions: Mapping[str, Decision], scene: Scene, standing: Sequence[Event] = ()
 ) -> list[Lesson]:
-    """Return what the decisions teach, sorted by label; nothing about what they contradict each other.
+    """Return what the decisions teach, sorted by label; nothing about concepts on which they contradict each other.
 
     Args:
         suggestions: the grounding that was reviewed.
@@ -83,7 +83,7 @@ def _direct(event: Event, suggestions: Grounding) -> Lesson:
 def format_lessons(lessons: Iterable[Lesson], tbox: TBox) -> str:
     """Return the lessons as SSSOM/TSV, an input of `--alignment` that changes the alignment that is built."""
     rows: dict[tuple[RowKind, str], AlignmentRow] = {}
-    # Of two rows about one word, that of a decision about a concept is valid.
+    # Of two rows about one word, that of a decision about a concept counts.
     for lesson in sorted(lessons, key=lambda lesson: not lesson.is_direct):
         for row in _rows(lesson):
             rows.setdefault((row.kind, row.subject), row)

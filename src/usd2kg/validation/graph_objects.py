@@ -82,7 +82,7 @@ def read_graph_objects(store: ox.Store) -> list[GraphObject]:
     paths = {
         node: [path for path in own if isinstance(path, ox.Literal)]
         for node, own in values_of(store, U2K.primPath).items()
-        # A blank node is no object that a finding could name.
+        # A blank node is not an object that a finding could name.
         if isinstance(node, ox.NamedNode) and node not in rooms
     }
     objects = [reader.read(node, own[0]) for node, own in paths.items() if own]

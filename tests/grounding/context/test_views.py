@@ -216,7 +216,7 @@ def test_no_group_shows_nothing():
 @pytest.mark.parametrize("regime", [NamingRegime.ABBREVIATED, NamingRegime.OPAQUE])
 def test_a_masked_target_has_companions_except_in_the_study_groups(regime):
     others = [[companion.name for companion in neighbours_of(view.neighbourhood)] for view in views(KITCHEN, regime)]
-    # Children of the table have its name among their parents and are no companions of it.
+    # Children of the table have its name among their parents and are not companions of it.
     assert [sorted(names) for names in others] == [
         ["Lamp"],
         ["Lamp", "Plate", "Table"],

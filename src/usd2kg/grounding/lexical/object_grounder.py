@@ -97,7 +97,7 @@ class ObjectGrounder:
         if best.class_iri == NO_CLASS_IRI:
             return ScoredView(_refusal(prim_path, best.explain()), posterior)
         if best.group in CONTEXT_GROUPS and self._is_fallback(best.class_iri):
-            # Two unidentified objects are no evidence for each other.
+            # Two unidentified objects are not evidence for each other.
             return ScoredView(self._default(prim_path, best.explain()), posterior)
         scores = {found.class_iri: found.score for found in reversed(scored) if found.class_iri != NO_CLASS_IRI}
         candidates = sorted(scores.items(), key=lambda candidate: (-candidate[1], candidate[0]))
@@ -126,7 +126,8 @@ class ObjectGrounder:
         if word_score >= EVIDENCE.clear_score:
             return scored, word_score
         if not (scored or view.is_masked or is_generated) and self._reader.names_known_noun(view.name):
-            # A tulip without a class in the TBox is not what stands beside it either.
+            # The name is understood and no class fits, as for a tulip in a TBox of furniture: the classes of neighbours
+            # could only be wrong.
             return [], word_score
         expanded = [] if is_generated else self._words.score_abbreviation(view)
         return self._combine(view, [*scored, *expanded]), word_score

@@ -170,8 +170,8 @@ class LexiconEditor:
         synset = self._taxonomy.find_concept(row.subject)
         if synset is None:
             raise GroundingError(
-                f"{self._source}: line {row.line}: {row.subject!r} is no known concept; expected a synset of WordNet "
-                "3.1, like wn:02873453-n, or leave subject_id empty and name a term in subject_label"
+                f"{self._source}: line {row.line}: {row.subject!r} is not a known concept; expected a synset of "
+                "WordNet 3.1, like wn:02873453-n, or leave subject_id empty and name a term in subject_label"
             )
         return synset
 
