@@ -53,7 +53,7 @@ def test_a_full_disk_is_an_error(tmp_path: Path, monkeypatch: pytest.MonkeyPatch
     with Manifest(tmp_path / "m.jsonl") as manifest, Path("/dev/full").open("ab", buffering=0) as full:
         manifest.add(DONE)
         with monkeypatch.context() as patch:
-            patch.setattr(manifest, "_file", full)
+            patch.setattr(manifest._file, "_file", full)
             with pytest.raises(OutputError, match="free space and run it again"):
                 manifest.add(FAILED)
         assert manifest.get(FAILED.scene) is None

@@ -18,7 +18,6 @@ NEEDS_OLDER_VERSION = (
     "what changed is not in one graph; compare it with an older version: usd2kg ask GRAPH 'what changed?' --since OLD, "
     "where OLD is a graph or a stage"
 )
-"""Objects that a sentence names for each kind of change."""
 _PLACES = {"on": "on", "inside": "in", "part-of": "part of", "room": "in"}
 """Relation that says where a thing is → how it is said, the most telling first."""
 _COLUMNS = ("object", "class", "path", "change", "moved_m", "before", "after")

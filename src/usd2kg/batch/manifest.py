@@ -1,14 +1,13 @@
 """Manifest: what became of each scene of a batch, one JSON record a line."""
 
-import errno
 import json
-import os
 from collections.abc import Iterator, Mapping
 from dataclasses import asdict, dataclass, field
 from enum import StrEnum
 from pathlib import Path
 from typing import Any, Self
 
+from usd2kg.append_only import AppendOnlyFile, whole_lines
 from usd2kg.errors import OutputError
 
 __all__ = ["JobStatus", "Manifest", "Record", "SourceState"]
@@ -76,12 +75,9 @@ class Manifest:
             raise OutputError(f"{path}: is not a file; choose another output folder")
         try:
             data = path.read_bytes() if path.exists() else b""
-            whole = data[: data.rfind(b"\n") + 1]
+            whole = whole_lines(data)
             self._records.update((record.scene, record) for record in _read(path, whole.decode("utf-8")))
-            # Without a buffer, which would be written again when the file is closed.
-            self._file = path.open("ab", buffering=0)
-            if len(whole) < len(data):
-                self._file.truncate(len(whole))
+            self._file = AppendOnlyFile(path, len(whole))
         except (OSError, UnicodeDecodeError) as error:
             raise OutputError(f"{path}: cannot be used as a manifest ({error}); choose another folder") from error
 
@@ -95,14 +91,10 @@ class Manifest:
         Raises:
             OutputError: it cannot be written; a part of it is removed.
         """
-        size = self.path.stat().st_size
         line = json.dumps(asdict(record), ensure_ascii=True, separators=(",", ":")).encode() + b"\n"
         try:
-            if self._file.write(line) < len(line):
-                raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC))
-            os.fsync(self._file.fileno())
+            self._file.append(line)
         except OSError as error:
-            _cut(self._file, size)
             raise OutputError(
                 f"{self.path}: cannot be written ({error.strerror}); free space and run it again"
             ) from error
@@ -129,10 +121,3 @@ def _read(path: Path, text: str) -> Iterator[Record]:
             raise OutputError(
                 f"{path}: line {number} is not a record of a batch ({error}); choose another output folder"
             ) from error
-
-
-def _cut(file: Any, size: int) -> None:
-    try:
-        file.truncate(size)
-    except OSError:
-        return

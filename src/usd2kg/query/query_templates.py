@@ -5,6 +5,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 
 from usd2kg.errors import GraphError
+from usd2kg.query.lookup.object_columns import NEAR_PROPERTIES
 from usd2kg.query.lookup.prepositions import preposition_pattern
 
 __all__ = [
@@ -27,7 +28,7 @@ _ON = "soma:isOntopOf|u2k:on"
 _INSIDE = "soma:isInsideOf|u2k:inside"
 _ATTACHED = "u2k:attachedTo"
 _WITHIN = f"{_INSIDE}|u2k:inRoom"
-_NEAR = "dul:nearTo|knowrob:isNextTo|dul:hasCommonBoundary|u2k:near|u2k:nextTo|u2k:touching"
+_NEAR = "|".join(map(str, NEAR_PROPERTIES))
 _PART_OF = "^soma:hasPhysicalComponent|u2k:partOf"
 _ABOVE = f"(knowrob:isAboveOf|u2k:above)/({_ON})*"
 """The graph states only the nearest anchors, but an object above another on the table is also above the table."""

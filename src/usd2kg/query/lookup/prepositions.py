@@ -1,6 +1,5 @@
 """Prepositions of questions and noun phrases, and the relations that they mean."""
 
-import re
 from collections.abc import Collection
 
 from usd2kg.knowledge import word_map
@@ -18,4 +17,4 @@ def preposition_pattern(relations: Collection[str] | None = None) -> str:
     ['au-dessus de', 'above', 'over', 'über']
     """
     words = [word for word, relation in RELATION_OF.items() if relations is None or relation in relations]
-    return "|".join(map(re.escape, sorted(words, key=lambda word: (-len(word), word))))
+    return "|".join(sorted(words, key=lambda word: (-len(word), word)))
