@@ -35,7 +35,10 @@ _LANGUAGES = ("de", "fr", "es", "it")
 _SIZES = {"big": max, "large": max, "huge": max, "tall": max, "small": min, "little": min, "tiny": min, "short": min}
 _RELATIONS = ("on", "inside", "near", "above", "attached")
 """Relations in noun phrases: cups on the table."""
-_PREPOSITIONS = preposition_pattern(_RELATIONS)
+_ORIGIN = {"from": "inside"}
+"""Prepositions of noun phrases only: the milk from the fridge is inside it, but what hangs from it is not."""
+_PREPOSITIONS = "|".join([preposition_pattern(_RELATIONS), *_ORIGIN])
+_RELATION_OF = {**RELATION_OF, **_ORIGIN}
 _RELATION = re.compile(rf"(?P<first>.+?) (?:that (?:is|are) )?(?P<relation>{_PREPOSITIONS}) (?P<second>.+)")
 
 _Criterion = Callable[[], Iterable[str]]
@@ -270,7 +273,7 @@ class Nouns:
         first = self._find(" ".join(split_phrase(parts["first"])))
         if first is None:
             return None
-        near = self.around(RELATION_OF[parts["relation"]], parts["second"], is_direct=False)
+        near = self.around(_RELATION_OF[parts["relation"]], parts["second"], is_direct=False)
         shown = f"{first.text} {parts['relation']} {parts['second']}"
         return Things(tuple(iri for iri in first.iris if iri in near), shown)
 
@@ -350,7 +353,7 @@ class Nouns:
         )
 
     def _is_known(self, word: str) -> bool:
-        return RELATION_OF.get(word) in _RELATIONS or word in _DETERMINERS or is_noun(word)
+        return _RELATION_OF.get(word) in _RELATIONS or word in _DETERMINERS or is_noun(word)
 
 
 def _head_of(label: str) -> str:
