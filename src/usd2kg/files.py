@@ -1,5 +1,6 @@
-"""Output files: checked before work starts, and written atomically."""
+"""Files: hashed, checked before work starts, and written atomically."""
 
+import hashlib
 import os
 import tempfile
 import time
@@ -9,7 +10,7 @@ from pathlib import Path
 
 from usd2kg.errors import OutputError
 
-__all__ = ["check_apart", "check_writable", "is_same_file", "write_whole"]
+__all__ = ["check_apart", "check_writable", "hash_file", "is_same_file", "write_whole"]
 
 _TEMPORARY = ".tmp"
 """Ending of temporary files."""
@@ -53,6 +54,12 @@ def check_writable(path: Path) -> None:
         raise OutputError(f"{path}: the folder {folder} does not exist; create it or choose another output")
     if not os.access(folder, os.W_OK) or (path.exists() and not os.access(path, os.W_OK)):
         raise OutputError(f"{path}: is not writable; choose another output or change its permissions")
+
+
+def hash_file(path: Path) -> str:
+    """Return the SHA-256 of a file as hexadecimal digits."""
+    with path.open("rb") as file:
+        return hashlib.file_digest(file, "sha256").hexdigest()
 
 
 def write_whole(path: Path, data: bytes | Iterable[bytes | memoryview]) -> None:

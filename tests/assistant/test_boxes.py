@@ -63,7 +63,7 @@ def test_places_beside_between_and_above(room: GraphStore, question: str, expect
 
 
 def test_the_sentence_says_where_one_looks_from(room: GraphStore):
-    assert "seen from amid the things around" in ask_offline(room, "what is left of the sideboard?").sentence
+    assert "as seen from among the surrounding objects" in ask_offline(room, "what is left of the sideboard?").sentence
 
 
 def test_what_is_in_the_way_of_a_door_without_a_joint(room: GraphStore):

@@ -86,8 +86,24 @@ def test_yes_or_no(room: GraphStore, question: str, expected: bool):
 
 
 @pytest.mark.parametrize(
+    ("question", "sentence"),
+    [
+        ("is the wardrobe heavier than the table?", "Yes: 60 kg against 20 kg."),
+        ("is the chair taller than the cups?", "Yes: 90 cm against 10 cm to 12 cm."),
+        ("are the cups bigger than the chair?", "No: 0.000641 to 0.000769 against 0.225 m³."),
+        ("is Cup_2 heavier than Cup_1?", "Yes: 400 g against 300 g."),
+    ],
+)
+def test_all_things_of_a_kind_are_compared(room: GraphStore, question: str, sentence: str):
+    assert ask_offline(room, question).sentence == sentence
+
+
+@pytest.mark.parametrize(
     ("question", "message"),
     [
+        ("is Cup_2 taller than the cups?", "some Cup_2 are taller than some cups, .* there are Cup_1 and Cup_2"),
+        ("is the piano bigger than the chair?", "there is no piano in this scene"),
+        ("are the pianos bigger than the chair?", "there are no pianos in this scene"),
         ("what is heavier than 4 metres?", "expected a number with kg"),
         ("which things are larger than 2 m?", "does not measure what is larger"),
         ("what is heavier, the floor or the chair?", "no mass for floor"),

@@ -79,7 +79,7 @@ class TestBuild:
     @pytest.mark.parametrize("first", [True, False])
     def test_builds_the_other_scenes_if_one_fails(self, run: Run, room: Path, first: bool):
         bad = room.with_name("bad.usda")
-        bad.write_text("#usda 1.0\nthis is no layer", encoding="utf-8")
+        bad.write_text("#usda 1.0\nthis is not a layer", encoding="utf-8")
         scenes = [bad, room] if first else [room, bad]
         done = run("build", *scenes, "--json")
         assert done.code == 2

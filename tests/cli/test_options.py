@@ -1,5 +1,6 @@
 """Help texts: every parameter has one, and an option has the same one in all commands."""
 
+import re
 from collections import defaultdict
 from collections.abc import Iterator
 from typing import Any
@@ -7,6 +8,9 @@ from typing import Any
 import typer
 
 from usd2kg.cli.app import app
+from usd2kg.graph.formats.serialize import GRAPH_FORMATS
+from usd2kg.graph.rdf_document import RDF_FORMATS
+from usd2kg.relations import ALL_KINDS, DEFAULT_KINDS, VIEWPOINT_KINDS
 
 OF_ONE_COMMAND = {
     "--all": "diff shows changes, the others findings",
@@ -36,6 +40,24 @@ def test_every_parameter_has_a_help_text():
     found = list(parameters(typer.main.get_command(app)))
     assert len(found) > 100
     assert [(command, p.name) for command, p in found if not getattr(p, "help", None)] == []
+
+
+def test_help_texts_name_all_relations_and_formats():
+    # The help texts are literals: the modules of these tables load numpy and OWL parsers, which no other command needs.
+    help_of = {(command, p.name): p.help for command, p in parameters(typer.main.get_command(app))}
+    kinds = words_of(help_of["build", "relation_kinds"])
+    assert set(ALL_KINDS) <= kinds
+    assert set(ALL_KINDS) - set(VIEWPOINT_KINDS) - set(DEFAULT_KINDS) == {"between"}, (
+        "the only one not found by default"
+    )
+    endings = {ending.removeprefix(".") for ending in GRAPH_FORMATS}
+    for command, option in (("batch", "file_format"), ("build", "output"), ("graph convert", "output")):
+        assert endings <= words_of(help_of[command, option]), command
+    assert {ending.removeprefix(".") for ending in RDF_FORMATS} <= words_of(help_of["graph convert", "graph"])
+
+
+def words_of(text: str) -> set[str]:
+    return set(re.findall(r"[\w-]+", text))
 
 
 def test_an_option_has_the_same_help_text_in_all_commands():

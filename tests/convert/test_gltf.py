@@ -35,7 +35,7 @@ def box(size, color=None, name="wood"):
 
 @pytest.fixture
 def kitchen(tmp_path: Path) -> Path:
-    """A table of 1.2 × 0.75 × 0.8 m (y up) with a red cup on it, and a lamp whose name is no prim name."""
+    """A table of 1.2 × 0.75 × 0.8 m (y up) with a red cup on it, and a lamp whose name is not a prim name."""
     scene = trimesh.Scene()
     scene.add_geometry(
         box((1.2, 0.75, 0.8), [128, 51, 0, 255]),

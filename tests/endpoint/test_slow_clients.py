@@ -102,7 +102,9 @@ def test_a_body_in_time_and_further_requests_are_answered(server):
             client.sendall(b"bc")
             reply = client.recv(1 << 16)
             while not reply.endswith(b"\r\n\r\n3"):
-                reply += client.recv(1 << 16)
+                received = client.recv(1 << 16)
+                assert received, f"the connection was closed after {reply!r}"
+                reply += received
             # Longer than the limit of a head: the connection is kept alive.
             time.sleep(0.6)
 

@@ -9,7 +9,7 @@ import pytest
 from numpy.typing import NDArray
 
 from tests.conftest import shared_file
-from tests.grounding.records import words_written
+from tests.grounding.records import neighbours_of, words_written
 from usd2kg.demo import demo_scene
 from usd2kg.grounding import EVIDENCE_GROUPS, NamingRegime, ObjectView, make_grounder, view_objects
 from usd2kg.grounding.context import Neighbour
@@ -42,7 +42,7 @@ def _texts(view: ObjectView) -> Iterator[str]:
 
 
 def _companions(view: ObjectView) -> list[Neighbour]:
-    return view.neighbourhood.neighbours() if view.neighbourhood else []
+    return neighbours_of(view.neighbourhood) if view.neighbourhood else []
 
 
 def _neighbours(view: ObjectView) -> list[Neighbour]:

@@ -5,7 +5,7 @@ from functools import lru_cache
 from typing import Any
 
 from usd2kg.grounding import ObjectView, Prediction
-from usd2kg.grounding.context import Neighbourhood
+from usd2kg.grounding.context import Neighbour, Neighbourhood
 from usd2kg.grounding.context.stage_words import WriteForms
 from usd2kg.grounding.lexical.alignment.lexicon import build_lexicon
 from usd2kg.grounding.lexical.concepts.taxonomy import load_taxonomy
@@ -132,3 +132,9 @@ def _as_it_is(word: str, share: float, score: float) -> tuple[str, float, float]
 
 def _all_of_them(form: str, found: list[tuple[str, float, float]]) -> list[tuple[str, float, float]]:
     return found
+
+
+def neighbours_of(neighbourhood: Neighbourhood) -> list[Neighbour]:
+    """Return the neighbours, which all vote: siblings first, then objects of equal or similar size."""
+    seen = neighbourhood.votes(lambda name, parents, size: (name, parents, size))
+    return [Neighbour(name, parents, near, distance, size) for (name, parents, size), near, distance, _ in seen]

@@ -17,7 +17,7 @@ from usd2kg.demo import demo_scene
 from usd2kg.errors import GroundingError
 from usd2kg.grounding import ground
 from usd2kg.grounding.lexical.alignment.alignment_file import AlignmentFile, format_alignment, read_alignment_file
-from usd2kg.grounding.lexical.alignment.default_root import build_rooted_lexicon
+from usd2kg.grounding.lexical.alignment.artificial_root import build_rooted_lexicon
 from usd2kg.grounding.lexical.concepts.home_names import home_names
 from usd2kg.grounding.lexical.concepts.taxonomy import load_taxonomy
 from usd2kg.grounding.lexical.grounder import LexicalGrounder
@@ -255,8 +255,8 @@ class TestErrors:
         ("row", "message"),
         [
             (edit(GUITAR, "guitar", "Nope"), "line 2: .*'Nope' names no class of the 4 in scope"),
-            (edit("wn:99999999-n", "guitar", "Media"), "line 2: .*99999999-n' is no known concept"),
-            (edit("https://x.example/guitar", "guitar", "Media"), "line 2: .*is no known concept"),
+            (edit("wn:99999999-n", "guitar", "Media"), "line 2: .*99999999-n' is not a known concept"),
+            (edit("https://x.example/guitar", "guitar", "Media"), "line 2: .*is not a known concept"),
             (edit(GUITAR, "guitar", "Media", "owl:sameAs"), "line 2: the predicate is 'owl:sameAs'; expected one of"),
             (edit("", "", "Media"), "line 2: has no subject"),
             (edit(GUITAR, "guitar", "sssom:NoTermFound"), "line 2: .*expected a class, or the predicate modifier Not"),

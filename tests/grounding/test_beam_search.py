@@ -16,7 +16,7 @@ NEXT_WORD = math.log(CHANNEL.next_word)
 NEVER = (-math.inf, 0.0)
 
 Ways = Mapping[tuple[int, int], tuple[tuple[float, float], Mapping[str, list[float]]]]
-"""(start, end) → the log probability that these letters are no word, and word → log probabilities of its sources."""
+"""(start, end) → the log probability that these letters are not a word, and word → log probabilities of its sources."""
 Found = list[tuple[tuple[str, ...], float]]
 
 
@@ -79,7 +79,7 @@ def assert_same(found: Found, expected: Found) -> None:
 def test_readings_of_two_pieces_worked_by_hand():
     ways = {(0, 1): (NEVER, {"tea": [-1.0]}), (1, 2): ((-2.0, 0.0), {"pot": [-3.0], "bell": [-3.0]})}
     bonus, step = math.log(15), NEXT_WORD
-    # Tea pot is a known pair, tea bell is not; the last letter may be no word.
+    # Tea pot is a known pair, tea bell is not; the last letter may not be a word.
     expected = [(("tea", "pot"), -4 + bonus + step), (("tea",), -3 + step), (("tea", "bell"), -4 + step)]
     assert_same(by_beam(ways, 2), expected)
 

@@ -1,13 +1,15 @@
-"""Expansion of a class: copies of one asset agree, and split candidates give way to their superclass."""
+"""Choice of a class: copies of one asset agree, and split candidates give way to their superclass."""
 
 import pytest
 
 from tests.grounding.records import SOMA
-from usd2kg.grounding import ObjectView, Prediction
-from usd2kg.grounding.lexical.class_choice import choose_superclass, reconcile_copies
+from usd2kg.demo import demo_scene
+from usd2kg.grounding import ObjectView, Prediction, ground
+from usd2kg.grounding.lexical.class_choice import choose_superclass, reconcile_copies, superclass_confidence
 from usd2kg.grounding.lexical.grounder import LexicalGrounder
 from usd2kg.grounding.model import Candidate, Status
 from usd2kg.ontology import TBox
+from usd2kg.scene import read_scene
 
 CUP, BOWL, PLATE, CROCKERY, KNIFE, TABLE_KNIFE = (
     SOMA + name for name in ("Cup", "Bowl", "Plate", "Crockery", "Knife", "TableKnife")
@@ -73,6 +75,26 @@ class TestAbstaining:
         n = len(home_tbox.closure(CROCKERY))
         cup, crockery = 0.8 + 0.2 * n / (n + 1), 2 * n / (2 * n + 1)
         assert choose_superclass({CUP: 0.8, BOWL: 0.4}, home_tbox) == (CUP if cup > crockery else CROCKERY)
+
+    def test_confidence_of_a_superclass_worked_by_hand(self, home_tbox: TBox) -> None:
+        # P(Cup) = P(Bowl) = P(Knife) = 1/3. Cup has 0.4, so the others have 0.6 / 3 each, and Knife is not crockery.
+        scores = {CUP: 0.5, BOWL: 0.5, KNIFE: 0.5}
+        assert superclass_confidence(CROCKERY, CUP, 0.4, scores, home_tbox) == pytest.approx(0.6)
+        assert superclass_confidence(KNIFE, CUP, 0.4, scores, home_tbox) == pytest.approx(0.2)
+        assert superclass_confidence(CROCKERY, CUP, 0.9, {CUP: 0.9}, home_tbox) == pytest.approx(0.9)
+
+    def test_no_superclass_in_the_demo_kitchen_is_less_probable_than_the_class_it_replaces(
+        self, home_tbox: TBox
+    ) -> None:
+        scene = read_scene(demo_scene())
+        leaves = ground(scene, home_tbox, LexicalGrounder()).by_path
+        abstained = ground(scene, home_tbox, LexicalGrounder(abstains=True)).predictions
+        changed = [one for one in abstained if one.class_iri != leaves[one.prim_path].class_iri]
+        assert changed
+        for one in changed:
+            leaf = leaves[one.prim_path]
+            assert home_tbox.is_subclass(str(leaf.class_iri), str(one.class_iri))
+            assert (one.confidence or 0.0) >= (leaf.confidence or 0.0), one.prim_path
 
     def test_the_decision_is_a_recorded_setting(self, home_tbox: TBox) -> None:
         grounder = LexicalGrounder(abstains=True)

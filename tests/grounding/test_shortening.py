@@ -59,7 +59,7 @@ def test_forms_of_a_word_that_begins_with_a_vowel():
     [
         ("refrigerator", {"rfrg", "rfrgr", "refr", "refrig", "rf", "refrigerator"}),
         ("keyboard", {"kybr", "kybrd", "keyb", "keyboard"}),
-        ("gym", {"gym", "g", "gy"}),  # y is no vowel
+        ("gym", {"gym", "g", "gy"}),  # y is not a vowel
     ],
 )
 def test_forms_of_longer_words(word: str, forms: set[str]):

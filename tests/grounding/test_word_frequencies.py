@@ -7,7 +7,7 @@ from functools import cache
 import pytest
 
 from usd2kg.grounding.lexical.concepts.taxonomy import load_taxonomy
-from usd2kg.grounding.lexical.reading.word_frequencies import UNKNOWN_FREQUENCY, log_prior, word_frequency
+from usd2kg.grounding.lexical.reading.word_frequencies import UNKNOWN_FREQUENCY, log_prior
 from usd2kg.knowledge import read_bytes, read_text
 
 COMMON_AND_RARE = """
@@ -22,6 +22,16 @@ COMMON_AND_RARE = """
 def shipped_lines() -> list[list[str]]:
     words, entries = gzip.decompress(read_bytes("frequencies.txt.gz")).decode("ascii").splitlines()
     return [[word, *entry.split("/")] for word, entry in zip(words.split(), entries.split(), strict=True)]
+
+
+def word_frequency(word: str) -> float:
+    """Return the Zipf score of a word."""
+    return _tenths().get(word, 10 * UNKNOWN_FREQUENCY) / 10
+
+
+@cache
+def _tenths() -> dict[str, int]:
+    return {word: int(tenths) for word, tenths, *_ in shipped_lines()}
 
 
 def test_common_artifacts_are_more_frequent_and_likelier_in_a_scene_than_rare_ones():

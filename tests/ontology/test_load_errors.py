@@ -55,7 +55,7 @@ def test_reports_the_first_invalid_byte(write):
     ("content", "begins"),
     [
         ("", "''"),
-        ("Dear reader,\n  this is no ontology.", "'Dear reader, this is no ontology.'"),
+        ("Dear reader,\n  this is not an ontology.", "'Dear reader, this is not an ontology.'"),
         ("<!DOCTYPE html>\n<html><body/></html>", "'<!DOCTYPE html> <html><body/></html>'"),
         ("#usda 1.0\n(\n)\n", "'#usda 1.0 ( )'"),
     ],

@@ -58,27 +58,6 @@ def test_depth_is_the_longest_path_to_a_root():
     assert list(deep.depths.values()) == [0, 1, 2, 3]
 
 
-@pytest.mark.parametrize(
-    ("names", "expected"),
-    [
-        ("Chair SofaBed", ["Seat"]),
-        ("Chair Bed", ["Artifact"]),
-        ("Chair Seat", ["Seat"]),
-        ("Chair", ["Chair"]),
-        ("SofaBed SofaBed", ["SofaBed"]),
-        ("Chair Bread", []),
-        ("Chair SofaBed Bed", ["Artifact"]),
-    ],
-)
-def test_lowest_common_ancestors(names, expected):
-    assert local(HOME.lowest_common_ancestors([BASE + name for name in names.split()])) == expected
-
-
-def test_several_lowest_common_ancestors_are_sorted():
-    both = tbox_of(A="", B="A", C="A", D="B C", E="B C")
-    assert local(both.lowest_common_ancestors([BASE + "D", BASE + "E"])) == ["B", "C"]
-
-
 @settings(max_examples=60, deadline=None)
 @given(st.integers(0, 10_000), st.integers(1, 12))
 def test_hierarchy_of_any_tree_is_consistent(seed, size):
@@ -95,11 +74,6 @@ def test_hierarchy_of_any_tree_is_consistent(seed, size):
         assert all(tbox.depths[parent] < tbox.depths[cls.iri] for parent in cls.parents)
         assert all(cls.iri in tbox.children[parent] for parent in cls.parents)
         assert (cls.iri in tbox.roots) == (tbox.depths[cls.iri] == 0) == (len(closure) == 1)
-    first, last = tbox.classes[0].iri, tbox.classes[-1].iri
-    common = tbox.closure(first) & tbox.closure(last)
-    lowest = tbox.lowest_common_ancestors([first, last])
-    assert set(lowest) <= common
-    assert all(any(tbox.is_subclass(low, iri) for low in lowest) for iri in common)
 
 
 def test_accepts_very_deep_hierarchies():

@@ -203,7 +203,9 @@ class TestFinding:
         assert "“schüssel” was read as “bowl”" in caplog.text
 
     def test_a_noun_phrase_may_have_a_relation(self, store: GraphStore):
-        assert self.found(store, "crockery on the dining table") == ["FruitBowl", "mug_red", "plate_1"]
+        expected = ["FruitBowl", "mug_red", "plate_1"]
+        assert self.found(store, "crockery on the dining table") == expected
+        assert self.found(store, "crockery atop the dining table") == expected
 
     def test_numbers_distinguish_labels(self, home_tbox: TBox):
         room = [(make_object(f"/a/box_{number}"), "Box") for number in ("1", "02", "12")]
@@ -239,7 +241,9 @@ class TestFinding:
 
 
 class TestQuestions:
-    @pytest.mark.parametrize("question", ["", "?", "on", "in ", "where", "all", "how many cups", "table", "is it on"])
+    @pytest.mark.parametrize(
+        "question", ["", "?", "on", "in ", "where", "all", "how many cups", "table", "is it on", "from X"]
+    )
     def test_an_unknown_question_lists_the_known_ones(self, store: GraphStore, question: str):
         with pytest.raises(GraphError) as error:
             store.ask(question.split())

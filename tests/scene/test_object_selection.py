@@ -273,7 +273,7 @@ def test_bare_meshes_below_a_scope_are_objects(read):
         ("Furniture", True),
         ("GRP", True),
         ("Group_Therapy_Chair", False),
-        ("Offset", False),  # ends in "set" and is no set
+        ("Offset", False),  # ends in "set" and is not a set
     ],
 )
 def test_an_xform_named_as_a_grouping_is_one(read, name, is_grouping):

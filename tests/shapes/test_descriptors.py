@@ -24,7 +24,13 @@ from tests.shapes.meshes import (
     tub,
 )
 from usd2kg.errors import SceneError
-from usd2kg.shapes.descriptors import describe_triangles
+from usd2kg.shapes.descriptors import describe_mesh
+from usd2kg.shapes.triangle_mesh import make_triangle_mesh
+
+
+def describe_triangles(points, triangles):
+    mesh = make_triangle_mesh(points.reshape(-1, 3), triangles.reshape(-1, 3))
+    return None if mesh is None else describe_mesh(mesh)
 
 
 def describe(mesh):

@@ -45,7 +45,7 @@ def test_the_queue_begins_with_the_largest_disputed_group(stage: Path, tmp_path:
         bowl = class_index(studio, "Bowl")
         found = [(sorted(group["objects"]), group["is_disputed"], group["second"]) for group in groups]
         assert found[:2] == [([CUP_1, CUP_2], True, bowl), ([TABLE], True, -1)]
-        # A failed call is no answer; the rest is in the order of expected gain.
+        # A failed call is not an answer; the rest is in the order of expected gain.
         assert [row for row in found[2:] if row[1]] == []
         assert found[2][0] == [THING]
         second = studio.ask(f"api/object/{CUP_1}").json()["second"]

@@ -33,7 +33,7 @@ async function start(): Promise<void> {
         if (!isConnected) store.saving.value = "offline";
         else if (store.saving.value === "offline") void store.reload();
       },
-      onDenied: () => askForKey("The studio has been started again, with another key."),
+      onDenied: () => askForKey("The studio was restarted with another key."),
     };
     void listen(client, () => store.version.value, handlers, new AbortController().signal);
   } catch (error) {

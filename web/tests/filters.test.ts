@@ -74,7 +74,7 @@ describe("colours", () => {
       ]),
     );
     expect(legend.map((entry) => [entry.label, entry.objects])).toEqual([
-      ["on and in nothing", [0, 3]],
+      ["not on or in anything", [0, 3]],
       ["Table", [1, 2]],
     ]);
     expect(colors).toEqual([rgb(REST), rgb(CATEGORIES[0]), rgb(CATEGORIES[0]), rgb(REST)]);

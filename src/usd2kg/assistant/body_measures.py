@@ -1,15 +1,16 @@
 """BodyMeasures: measures of the bodies of things, and the words for them."""
 
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from typing import NamedTuple
 
 import numpy as np
 
 from usd2kg.errors import GraphError
+from usd2kg.knowledge import word_map
 from usd2kg.query.body_table import Body
-from usd2kg.query.lookup import Nouns, SceneFacts, Things
+from usd2kg.query.lookup import SceneFacts, Things
 
-__all__ = ["COMPARED", "MASS", "MEASURES", "PLACE", "SAME", "SIZE", "SUPERLATIVES", "BodyMeasures", "Measure"]
+__all__ = ["COMPARED", "ELEVATION", "MASS", "MEASURES", "SAME", "SIZE", "SUPERLATIVES", "BodyMeasures", "Measure"]
 
 
 class Measure(NamedTuple):
@@ -28,7 +29,8 @@ def _side(body: Body, axis: int | None) -> float | None:
     return float(size[2]) if axis is None else float(sorted(size[:2])[axis])
 
 
-def _volume(body: Body) -> float | None:
+def _mean_side(body: Body) -> float | None:
+    """Return the side of a cube with the volume of the extents, in metres."""
     return None if body.extents is None else float(np.prod(body.extents)) ** (1 / 3)
 
 
@@ -42,42 +44,29 @@ DEPTH = Measure("deep", "m", lambda body: _side(body, 0))
 LENGTH = Measure("long", "m", lambda body: None if body.extents is None else body.extents[2])
 THICKNESS = Measure("thick", "m", lambda body: None if body.extents is None else body.extents[0])
 MASS = Measure("heavy", "kg", lambda body: body.mass)
-SIZE = Measure("large", "m", _volume)
-PLACE = Measure("high up", "m", _bottom)
-MEASURES = {
-    **dict.fromkeys(("tall", "high", "height", "hoch"), HEIGHT),
-    **dict.fromkeys(("wide", "broad", "width", "breadth", "breit"), WIDTH),
-    **dict.fromkeys(("deep", "depth", "tief"), DEPTH),
-    **dict.fromkeys(("long", "length", "lang"), LENGTH),
-    **dict.fromkeys(("thick",), THICKNESS),
-    **dict.fromkeys(("heavy", "weight", "mass", "schwer"), MASS),
-    **dict.fromkeys(("big", "large", "small", "size", "dimensions", "groß"), SIZE),
+SIZE = Measure("large", "m", _mean_side)
+ELEVATION = Measure("high up", "m", _bottom)
+_BY_NAME = {
+    "height": HEIGHT,
+    "width": WIDTH,
+    "depth": DEPTH,
+    "length": LENGTH,
+    "thickness": THICKNESS,
+    "mass": MASS,
+    "size": SIZE,
+    "elevation": ELEVATION,
 }
-SUPERLATIVES = {
-    **dict.fromkeys(("heaviest", "schwerste"), (MASS, 1)),
-    **dict.fromkeys(("lightest", "leichteste"), (MASS, -1)),
-    **dict.fromkeys(("tallest", "höchste"), (HEIGHT, 1)),
-    "shortest": (HEIGHT, -1),
-    **dict.fromkeys(("largest", "biggest", "größte"), (SIZE, 1)),
-    **dict.fromkeys(("smallest", "kleinste"), (SIZE, -1)),
-    "widest": (WIDTH, 1),
-    "narrowest": (WIDTH, -1),
-    "longest": (LENGTH, 1),
-    "deepest": (DEPTH, 1),
-    "thinnest": (THICKNESS, -1),
-    "highest": (PLACE, 1),
-    "lowest": (PLACE, -1),
-}
-COMPARED = {
-    **dict.fromkeys(("bigger", "larger"), (SIZE, 1)),
-    "smaller": (SIZE, -1),
-    **dict.fromkeys(("taller", "higher"), (HEIGHT, 1)),
-    "shorter": (HEIGHT, -1),
-    "wider": (WIDTH, 1),
-    "longer": (LENGTH, 1),
-    "heavier": (MASS, 1),
-    "lighter": (MASS, -1),
-}
+
+
+def _read_signed(words: Mapping[str, str]) -> dict[str, tuple[Measure, int]]:
+    """Return word → measure, and -1 where the word means less of it."""
+    parts = {word: meaning.split() for word, meaning in words.items()}
+    return {word: (_BY_NAME[name], 1 if sign in {"most", "more"} else -1) for word, (sign, name) in parts.items()}
+
+
+MEASURES = {word: _BY_NAME[name] for word, name in word_map("assistant", "measure_words").items()}
+SUPERLATIVES = _read_signed(word_map("assistant", "superlatives"))
+COMPARED = _read_signed(word_map("assistant", "comparatives"))
 SAME = 0.005
 """Share of a measure by which two things must differ to be unequal."""
 
@@ -85,9 +74,8 @@ SAME = 0.005
 class BodyMeasures:
     """Measures of the things that words mean."""
 
-    def __init__(self, facts: SceneFacts, nouns: Nouns) -> None:
+    def __init__(self, facts: SceneFacts) -> None:
         self._facts = facts
-        self._nouns = nouns
 
     def gaps(self, iris: Iterable[str], anchors: Sequence[str]) -> dict[str, float]:
         """Return the distances between boxes in metres, to the nearest anchor; things without a box are left out."""
@@ -103,17 +91,6 @@ class BodyMeasures:
         if a.lower is None or a.upper is None or b.lower is None or b.upper is None:
             return None
         return round(float(np.linalg.norm(np.maximum(np.maximum(a.lower - b.upper, b.lower - a.upper), 0))), 4)
-
-    def existing(self, text: str) -> Things:
-        """Return things that exist.
-
-        Raises:
-            GraphError: there are none.
-        """
-        things = self._nouns.find(text)
-        if not things.iris:
-            raise GraphError(f"there is no {things.text} in this scene{things.suffix}")
-        return things
 
     def values(self, iris: Iterable[str], measure: Measure) -> dict[str, float]:
         """Return the measure of each thing that has it."""

@@ -6,7 +6,7 @@ from pathlib import Path
 from typing import Any
 
 from usd2kg.assistant.interpreted_answer import InterpretedAnswer
-from usd2kg.assistant.sentences import begin_sentence, join_words, number_text
+from usd2kg.assistant.sentences import begin_sentence, join_few, join_words, number_text
 from usd2kg.diff import Change, Changes, Link, ObjectState, compare_objects, objects_of_graph
 from usd2kg.diff.versions import read_objects
 from usd2kg.query import Answer, GraphStore
@@ -18,8 +18,6 @@ NEEDS_OLDER_VERSION = (
     "what changed is not in one graph; compare it with an older version: usd2kg ask GRAPH 'what changed?' --since OLD, "
     "where OLD is a graph or a stage"
 )
-_MOST_NAMED = 4
-"""Objects that a sentence names for each kind of change."""
 _PLACES = {"on": "on", "inside": "in", "part-of": "part of", "room": "in"}
 """Relation that says where a thing is → how it is said, the most telling first."""
 _COLUMNS = ("object", "class", "path", "change", "moved_m", "before", "after")
@@ -111,7 +109,7 @@ def _moved(changes: Changes) -> tuple[list[Row], str]:
 
 
 def _resized(changes: Changes) -> tuple[list[Row], str]:
-    # A box that grew because something appeared below it is no change of its own.
+    # A box that grew because something appeared below it is not a change of its own.
     own = [change for change in changes.changed if change.resized is not None and not change.holds_changes]
     sizes = [tuple(map(_numbers, change.resized or ())) for change in own]
     rows: list[Row] = [
@@ -143,9 +141,7 @@ def _sentence(named: Sequence[str], verb: str) -> str:
     """Return `2 moved: the cup A by 10 cm and the cup B by 20 cm`; empty if nothing is named."""
     if not named:
         return ""
-    rest = len(named) - _MOST_NAMED
-    shown = [*named[:_MOST_NAMED], f"{rest} more"] if rest > 0 else [*named]
-    return f"{len(named)} {verb}: {join_words(shown)}"
+    return f"{len(named)} {verb}: {join_few(named)}"
 
 
 def _motion(change: Change) -> str:

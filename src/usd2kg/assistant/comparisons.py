@@ -2,29 +2,27 @@
 
 import re
 from collections.abc import Callable
+from itertools import product
 
-from usd2kg.assistant.body_measures import COMPARED, MASS, PLACE, SAME, SIZE, SUPERLATIVES, BodyMeasures
+from usd2kg.assistant.body_measures import COMPARED, ELEVATION, MASS, SAME, SIZE, SUPERLATIVES, BodyMeasures, Measure
 from usd2kg.assistant.free_places import find_free_places
 from usd2kg.assistant.interpreted_answer import InterpretedAnswer
-from usd2kg.assistant.sentences import NUMBER_WORDS, begin_sentence, count_phrase, join_words, name_things, number_text
+from usd2kg.assistant.sentences import (
+    NUMBER_WORDS,
+    begin_sentence,
+    count_phrase,
+    join_few,
+    name_things,
+    number_text,
+    yes_or_no,
+)
+from usd2kg.assistant.units import UNIT_SIZES, UNIT_SYMBOLS
 from usd2kg.errors import GraphError
 from usd2kg.query.lookup import Nouns, SceneFacts
 
 __all__ = ["ComparisonAnswers"]
 
 _AMOUNT = re.compile(r"(?P<number>\d*\.?\d+) ?(?P<unit>[a-z\"]*)", re.IGNORECASE)
-_UNITS = {
-    **dict.fromkeys(("m", "metre", "metres", "meter", "meters"), ("m", 1.0)),
-    **dict.fromkeys(("cm", "centimetre", "centimetres", "centimeter", "centimeters"), ("m", 0.01)),
-    **dict.fromkeys(("mm", "millimetre", "millimetres", "millimeter", "millimeters"), ("m", 0.001)),
-    **dict.fromkeys(("in", "inch", "inches", '"'), ("m", 0.0254)),
-    **dict.fromkeys(("ft", "foot", "feet"), ("m", 0.3048)),
-    **dict.fromkeys(("kg", "kilo", "kilos", "kilogram", "kilograms"), ("kg", 1.0)),
-    **dict.fromkeys(("g", "gram", "grams"), ("kg", 0.001)),
-    **dict.fromkeys(("lb", "lbs", "pound", "pounds"), ("kg", 0.45359237)),
-}
-"""Unit in a question → unit of the measures, and its size in that."""
-_MOST_NAMED = 4
 
 
 class ComparisonAnswers:
@@ -33,10 +31,10 @@ class ComparisonAnswers:
     def __init__(self, facts: SceneFacts, nouns: Nouns) -> None:
         self._facts = facts
         self._nouns = nouns
-        self._bodies = BodyMeasures(facts, nouns)
+        self._bodies = BodyMeasures(facts)
 
     def find(self, question: str) -> Callable[..., InterpretedAnswer] | None:
-        """Return the method that answers a frame; None if it is another's."""
+        """Return the method that answers a question type; None if it is another's."""
         handlers: dict[str, Callable[..., InterpretedAnswer]] = {
             "superlative": self._superlative,
             "compare": self._compare,
@@ -49,7 +47,7 @@ class ComparisonAnswers:
 
     def _superlative(self, adjective: str, kind: str, count: str = "1") -> InterpretedAnswer:
         """Return the things that come first by a measure, with those that are equal to the last of them."""
-        things = self._bodies.existing(kind)
+        things = self._nouns.existing(kind)
         measure, sign = SUPERLATIVES[adjective.lower()]
         values = self._bodies.values(things.iris, measure)
         if not values:
@@ -61,34 +59,48 @@ class ComparisonAnswers:
         known = (
             f" of the {len(values)} whose mass is known" if measure is MASS and len(values) < len(things.iris) else ""
         )
-        labels = join_words([facts.label(iri) for iri in best[:_MOST_NAMED]])
+        labels = join_few([facts.label(iri) for iri in best])
         amount = "" if measure is SIZE or count != "1" else f", {number_text(last, measure.unit)}"
         shown = f"The {adjective.lower()} {things.text}" if count == "1" else f"The {count} {adjective} {things.text}"
         sentence = f"{shown}{known}: {labels}{amount}{things.suffix}."
-        column = {"mass_kg" if measure is MASS else "bottom_m" if measure is PLACE else f"{measure.name}_m": values}
+        column = {"mass_kg" if measure is MASS else "bottom_m" if measure is ELEVATION else f"{measure.name}_m": values}
         return InterpretedAnswer(
             f"{adjective} {things.text}", facts.table(best, **column), number=last, sentence=sentence
         )
 
     def _compare(self, thing: str, adjective: str, other: str) -> InterpretedAnswer:
-        first, second = self._bodies.existing(thing), self._bodies.existing(other)
+        """Return whether one thing, or each of several, is more of something than another."""
+        first, second = self._nouns.existing(thing), self._nouns.existing(other)
         measure, sign = COMPARED[adjective.lower()]
-        values = self._bodies.values([first.iris[0], second.iris[0]], measure)
-        if len(values) < 2:
-            raise self._bodies.unmeasured(first if first.iris[0] not in values else second, measure)
-        one, two = values[first.iris[0]], values[second.iris[0]]
-        is_more = sign * (one - two) > SAME * max(one, two)
-        equal = abs(one - two) <= SAME * max(one, two)
-        numbers = f"{number_text(one, measure.unit)} against {number_text(two, measure.unit)}"
-        how = f"{one**3:.3g} against {two**3:.3g} m³" if measure is SIZE else numbers
-        said = f"{'Yes' if is_more else 'No'}: {'they are equal' if equal else how}."
+        values = self._bodies.values([*first.iris, *second.iris], measure)
+        ranges = []
+        for things in (first, second):
+            if not values.keys() >= set(things.iris):
+                raise self._bodies.unmeasured(things, measure)
+            own = [values[iri] for iri in things.iris]
+            ranges.append((min(own), max(own)))
+        pairs = list(product(*ranges))
+        verdicts = {sign * (one - two) > SAME * max(one, two) for one, two in pairs}
+        if len(verdicts) > 1:
+            named = " and ".join(
+                join_few([*map(self._facts.label, things.iris)]) for things in (first, second) if len(things.iris) > 1
+            )
+            raise GraphError(
+                f"not known: some {first.text} are {adjective} than some {second.text}, others are not; "
+                f"expected the names of two things; there are {named}"
+            )
+        (is_more,) = verdicts
+        equal = all(abs(one - two) <= SAME * max(one, two) for one, two in pairs)
+        how = " against ".join(_range_text(low, high, measure) for low, high in ranges)
+        how += " m³" if measure is SIZE else ""
+        said = yes_or_no(is_more, f"{'they are equal' if equal else how}.")
         return InterpretedAnswer(
             f"whether {first.text} is {adjective} than {second.text}", self._facts.table(values), is_more, sentence=said
         )
 
     def _choose(self, thing: str, adjective: str, other: str) -> InterpretedAnswer:
         """Return which of two things is more of something."""
-        first, second = self._bodies.existing(thing), self._bodies.existing(other)
+        first, second = self._nouns.existing(thing), self._nouns.existing(other)
         measure, sign = COMPARED[adjective.lower()]
         values = self._bodies.values([*first.iris, *second.iris], measure)
         ranges = []
@@ -122,7 +134,7 @@ class ComparisonAnswers:
             f"whether there are {adjective} {first.text} than {second.text}",
             self._facts.table((*first.iris, *second.iris)),
             is_so,
-            sentence=f"{'Yes' if is_so else 'No'}: there are {counts}{first.suffix}{second.suffix}.",
+            sentence=yes_or_no(is_so, f"there are {counts}{first.suffix}{second.suffix}."),
         )
 
     def _limit(self, adjective: str, amount: str, kind: str = "things") -> InterpretedAnswer:
@@ -152,13 +164,13 @@ class ComparisonAnswers:
 
     def _fits(self, other: str, thing: str = "", sides: str = "") -> InterpretedAnswer:
         """Return whether a thing, or a box of some size, has room on others."""
-        surfaces, facts = self._bodies.existing(other), self._facts
+        surfaces, facts = self._nouns.existing(other), self._facts
         moved: tuple[str, ...] = ()
         if sides:
             name = f"a box of {sides}"
             width, depth, height = _read_sides(sides)
         else:
-            things = self._bodies.existing(thing)
+            things = self._nouns.existing(thing)
             name, moved = things.text, things.iris
             body = facts.body(things.iris[0])
             if body.lower is None or body.upper is None:
@@ -174,9 +186,15 @@ class ComparisonAnswers:
             where = f"room for {name}{size} on {facts.label(places[0].surface)}, at ({x:g}, {y:g}, {z:g}) m"
         else:
             where = f"no room for {name}{size} on {surfaces.text}"
-        sentence = f"{'Yes' if places else 'No'}: there is {where}{surfaces.suffix}."
+        sentence = yes_or_no(bool(places), f"there is {where}{surfaces.suffix}.")
         understood = f"whether {name} fits on {surfaces.text}"
         return InterpretedAnswer(understood, facts.table(spots, center_m=spots), bool(places), sentence=sentence)
+
+
+def _range_text(low: float, high: float, measure: Measure) -> str:
+    """Return a range of measures: 31 cm, 31 cm to 1.2 m; sizes without their unit, m³."""
+    ends = [f"{end**3:.3g}" if measure is SIZE else number_text(end, measure.unit) for end in (low, high)]
+    return " to ".join(dict.fromkeys(ends))
 
 
 def _read_amount(text: str) -> tuple[float, str]:
@@ -186,11 +204,12 @@ def _read_amount(text: str) -> tuple[float, str]:
     ((0.4, 'm'), (0.5, 'kg'))
     """
     found = _AMOUNT.fullmatch(text.strip())
-    if found is None or found["unit"].lower() not in _UNITS:
+    symbol = UNIT_SYMBOLS.get(found["unit"].lower()) if found is not None else None
+    if found is None or symbol is None:
         raise GraphError(
             f"{text!r} is not understood as an amount; expected a number with a unit, such as 40 cm or 2 kg"
         )
-    unit, size = _UNITS[found["unit"].lower()]
+    unit, size = UNIT_SIZES[symbol]
     return float(found["number"]) * size, unit
 
 

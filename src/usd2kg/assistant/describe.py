@@ -125,24 +125,20 @@ def _rounded(vector: NDArray[np.float64]) -> tuple[float, ...]:
 
 def _related_objects(graph: GraphStore, path: str) -> dict[str, Any]:
     """Return relation name → labels of the supporters, containers, contents, neighbours and parts of an object."""
-    location = _to_rows(graph.where_is(path))
+    location = graph.where_is(path).as_dicts()
     related: dict[str, Any] = {
         "stands_on": sorted({row["on"] for row in location if row.get("on")}),
         "lies_in": sorted({row["inside"] for row in location if row.get("inside")}),
     }
     queries = {"on_it": graph.on, "in_it": graph.inside, "near_it": graph.near, "parts": graph.parts_of}
     for name, query in queries.items():
-        related[name] = list(dict.fromkeys(row["object"] for row in _to_rows(query(path))))
+        related[name] = list(dict.fromkeys(row["object"] for row in query(path).as_dicts()))
     return related
-
-
-def _to_rows(answer: Answer) -> list[_Row]:
-    return [dict(zip(answer.columns, row, strict=True)) for row in answer.values]
 
 
 def _rows_by_path(answer: Answer) -> Mapping[str, list[_Row]]:
     found: dict[str, list[_Row]] = {}
-    for row in _to_rows(answer):
+    for row in answer.as_dicts():
         found.setdefault(str(row["path"]), []).append(row)
     return found
 

@@ -5,20 +5,18 @@ from numpy.typing import NDArray
 
 from usd2kg.assistant.settings import DIRECTIONS
 from usd2kg.query.lookup import SceneFacts
+from usd2kg.shapes.side_angles import angles_off_side, turns_from_gaze
 
 __all__ = ["find_beside", "find_between"]
 
 Vector = NDArray[np.float64]
 
-_TURNS = {"behind": 0.0, "left": 90.0, "front": 180.0, "right": -90.0}
-"""Degrees from the gaze to the direction from anchor to target, counter-clockwise from above."""
-
 
 def find_beside(facts: SceneFacts, side: str, anchor: str) -> list[str] | None:
     """Return the objects on a side of a thing, the nearest first.
 
-    The viewer stands amid the things around and looks at the anchor: an object in front is nearer to the viewer
-    (relative frame of reference, Levinson 2003).
+    The viewer stands in the middle of the surrounding objects and looks at the anchor: an object in front is nearer to
+    the viewer (relative frame of reference, Levinson 2003).
 
     Args:
         facts: the graph.
@@ -38,9 +36,7 @@ def find_beside(facts: SceneFacts, side: str, anchor: str) -> list[str] | None:
     gaze = own - around.mean(axis=0)
     if float(np.hypot(*gaze)) < DIRECTIONS.min_offset:
         return None
-    away = middle - own
-    turn = np.degrees(np.arctan2(gaze[0] * away[:, 1] - gaze[1] * away[:, 0], away @ gaze))
-    off = np.abs((turn - _TURNS[side] + 180) % 360 - 180)
+    off = angles_off_side(turns_from_gaze(gaze, middle - own), side)
     overlap = np.minimum(table.upper[:, 2], body.upper[2]) - np.maximum(table.lower[:, 2], body.lower[2])
     # The anchor itself and what is around or within it have no direction.
     is_apart = np.any(gaps[:, :2] > 0, axis=1)
@@ -53,7 +49,8 @@ def find_between(facts: SceneFacts, one: str, other: str) -> list[str] | None:
     """Return the objects between two things, by prim path; None if one of them has no box.
 
     The middle of such an object is over the strip from middle to middle, as wide as the narrower thing, and outside
-    both boxes; their heights overlap.
+    both boxes; their heights overlap. `u2k:Between` requires most of the footprint to be in the convex hull of the two,
+    which a bed between two bedside tables is not; it also relates each object to its nearest two anchors only.
     """
     first, second, table = facts.body(one), facts.body(other), facts.bodies.table
     if first.lower is None or first.upper is None or second.lower is None or second.upper is None:

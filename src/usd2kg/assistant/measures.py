@@ -7,7 +7,7 @@ import numpy as np
 from usd2kg.assistant.body_measures import MASS, MEASURES, SIZE, BodyMeasures
 from usd2kg.assistant.free_places import find_free_places
 from usd2kg.assistant.interpreted_answer import InterpretedAnswer
-from usd2kg.assistant.sentences import begin_sentence, join_words, name_things, number_text
+from usd2kg.assistant.sentences import begin_sentence, join_few, join_words, name_things, number_text
 from usd2kg.assistant.settings import PLACING
 from usd2kg.errors import GraphError
 from usd2kg.knowledge import word_map, word_set
@@ -30,10 +30,10 @@ class MeasureAnswers:
     def __init__(self, facts: SceneFacts, nouns: Nouns) -> None:
         self._facts = facts
         self._nouns = nouns
-        self._bodies = BodyMeasures(facts, nouns)
+        self._bodies = BodyMeasures(facts)
 
     def find(self, question: str) -> Handler | None:
-        """Return the method that answers a frame; None if it is another's."""
+        """Return the method that answers a question type; None if it is another's."""
         handlers: dict[str, Handler] = {
             "measure": self._measure,
             "weigh": lambda thing: self._measure(thing, "heavy"),
@@ -51,7 +51,7 @@ class MeasureAnswers:
         return handlers.get(question)
 
     def _measure(self, thing: str, adjective: str = "size") -> InterpretedAnswer:
-        things, measure = self._bodies.existing(thing), MEASURES[adjective.lower()]
+        things, measure = self._nouns.existing(thing), MEASURES[adjective.lower()]
         values = self._bodies.values(things.iris, measure)
         if not values:
             raise self._bodies.unmeasured(things, measure)
@@ -67,7 +67,7 @@ class MeasureAnswers:
             else:
                 parts.append(f"{facts.label(iri)} is {number_text(value, 'm')} {measure.name}")
         column = {f"{'mass_kg' if measure is MASS else f'{measure.name}_m'}": values}
-        sentence = f"{join_words(parts[:4])}{f' and {len(parts) - 4} more' if len(parts) > 4 else ''}{things.suffix}."
+        sentence = f"{join_few(parts)}{things.suffix}."
         return InterpretedAnswer(
             f"how {measure.name}: {things.text}",
             facts.table(values, **column),
@@ -76,13 +76,13 @@ class MeasureAnswers:
         )
 
     def _distance(self, thing: str, other: str) -> InterpretedAnswer:
-        first, second = self._bodies.existing(thing), self._bodies.existing(other)
+        first, second = self._nouns.existing(thing), self._nouns.existing(other)
         gaps = self._bodies.gaps(first.iris, second.iris)
         if not gaps:
             raise GraphError(f"not known: the graph has no boxes for {first.text} and {second.text}")
         facts = self._facts
         parts = [f"{facts.label(iri)} is {number_text(gap, 'm')} from {second.text}" for iri, gap in gaps.items()]
-        sentence = f"{join_words(parts[:4])}, from side to side{first.suffix}{second.suffix}."
+        sentence = f"{join_few(parts)}, from side to side{first.suffix}{second.suffix}."
         table = facts.table(sorted(gaps, key=lambda iri: gaps[iri]), gap_m=gaps)
         return InterpretedAnswer(
             f"the gap between {first.text} and {second.text}, in metres",
@@ -92,7 +92,7 @@ class MeasureAnswers:
         )
 
     def _color(self, thing: str) -> InterpretedAnswer:
-        things, facts = self._bodies.existing(thing), self._facts
+        things, facts = self._nouns.existing(thing), self._facts
         colors = {iri: ", ".join(own_colors(facts, iri)) for iri in things.iris if own_colors(facts, iri)}
         if not colors:
             raise GraphError(f"not known: the graph has no colour for {things.text}{things.suffix}")
@@ -103,11 +103,11 @@ class MeasureAnswers:
         return InterpretedAnswer(
             f"colour of {things.text}",
             facts.table(colors, color=colors),
-            sentence=f"{join_words(parts[:4])}{things.suffix}.",
+            sentence=f"{join_few(parts)}{things.suffix}.",
         )
 
     def _material(self, thing: str) -> InterpretedAnswer:
-        things, facts = self._bodies.existing(thing), self._facts
+        things, facts = self._nouns.existing(thing), self._facts
         found = {iri: ", ".join(facts.materials(iri)) for iri in things.iris if facts.materials(iri)}
         if not found:
             raise GraphError(f"not known: the graph has no material for {things.text}{things.suffix}")
@@ -122,12 +122,12 @@ class MeasureAnswers:
         return InterpretedAnswer(
             f"material of {things.text}",
             facts.table(found, material=found),
-            sentence=f"{join_words(parts[:4])}{things.suffix}. The names of materials say how things look.",
+            sentence=f"{join_few(parts)}{things.suffix}. The names of materials say how things look.",
         )
 
     def _are_like(self, kind: str, adjective: str) -> InterpretedAnswer:
         """Return the things of a colour, a material, or another kind."""
-        things, facts, word = self._bodies.existing(kind), self._facts, adjective.lower()
+        things, facts, word = self._nouns.existing(kind), self._facts, adjective.lower()
         if word in COLORS:
             if not facts.count(_COLORED):
                 raise GraphError("not known: the graph has no colours")
@@ -235,7 +235,7 @@ class MeasureAnswers:
         return InterpretedAnswer("things that open", facts.table(chosen), sentence=sentence)
 
     def _sure(self, thing: str, kind: str) -> InterpretedAnswer:
-        things, facts = self._bodies.existing(thing), self._facts
+        things, facts = self._nouns.existing(thing), self._facts
         what = set(self._nouns.find(kind).iris)
         sure = facts.confidences(things.iris)
         parts = []
@@ -249,7 +249,7 @@ class MeasureAnswers:
             facts.table(things.iris, confidence=sure),
             all(iri in what for iri in things.iris),
             number=next(iter(sure.values()), None),
-            sentence=f"{join_words(parts[:4])}.",
+            sentence=f"{join_few(parts)}.",
         )
 
     def _unknown(self) -> InterpretedAnswer:

@@ -19,9 +19,12 @@ from usd2kg.assistant.sentences import (
     number_text,
     split_number,
     the_thing,
+    yes_or_no,
 )
+from usd2kg.assistant.settings import SENTENCES
 from usd2kg.assistant.swept_space import find_in_the_way
 from usd2kg.assistant.thing_lists import ThingLists
+from usd2kg.assistant.units import UNIT_SYMBOLS
 from usd2kg.errors import GraphError
 from usd2kg.knowledge import word_map, word_set
 from usd2kg.query import Answer, GraphStore
@@ -32,9 +35,6 @@ from usd2kg.query.questions import list_questions
 from usd2kg.query.unicode_text import check_text
 
 __all__ = ["ask_offline"]
-
-_UNITS = (("centimet", "cm"), ("millimet", "mm"), ("met", "m"), ("kilo", "kg"), ("gram", "g"))
-"""Beginning of a unit's name → symbol, tried in order."""
 
 
 def ask_offline(graph: GraphStore, text: str, since: Path | None = None) -> InterpretedAnswer:
@@ -63,7 +63,7 @@ class _Answerer:
         self._since = since
         self._facts = graph.facts
         self._nouns = Nouns(self._facts, is_english=is_english)
-        self._bodies = BodyMeasures(self._facts, self._nouns)
+        self._bodies = BodyMeasures(self._facts)
         self._measures = MeasureAnswers(self._facts, self._nouns)
         self._comparisons = ComparisonAnswers(self._facts, self._nouns)
         self._relations = RelationAnswers(graph, self._nouns, self._measures)
@@ -125,9 +125,7 @@ class _Answerer:
         verb = "is" if count == 1 else "are"
         *before, last = things.text.split() or ["thing"]
         named = " ".join([*before, singular(last)]) if count == 1 else things.text
-        sentence = (
-            f"There {verb} {count} {named}{things.suffix}." if count else begin_sentence(self._things.absent(things))
-        )
+        sentence = f"There {verb} {count} {named}{things.suffix}." if count else f"{begin_sentence(things.absence)}."
         return InterpretedAnswer(
             f"number of {things.text}", self._things.located(things.iris), number=count, sentence=sentence
         )
@@ -146,7 +144,7 @@ class _Answerer:
         self._things.check_kind(things)
         answer = self._things.answer(things)
         yes = len(things.iris) >= count
-        said = f"{'Yes' if yes else 'No'}: {answer.sentence[0].lower()}{answer.sentence[1:]}"
+        said = yes_or_no(yes, answer.sentence)
         return InterpretedAnswer(f"whether there is {things.text}", answer.answer, yes, sentence=said)
 
     # Places and parts.
@@ -155,7 +153,7 @@ class _Answerer:
         facts, things = self._facts, self._nouns.find(thing)
         if not things.iris:
             return InterpretedAnswer(
-                f"where: {things.text}", facts.table(()), sentence=begin_sentence(self._things.absent(things))
+                f"where: {things.text}", facts.table(()), sentence=f"{begin_sentence(things.absence)}."
             )
         parts, places = [], []
         for iri in things.iris:
@@ -172,7 +170,9 @@ class _Answerer:
                 x, y, z = (body.lower + body.upper) / 2
                 said.append(f"at ({x:.2f}, {y:.2f}, {z:.2f}) m")
             parts.append(f"{facts.label(iri)} is {', '.join(said) or 'somewhere, without a known place'}")
-        sentence = f"{'; '.join(parts[:4])}{f'; and {len(parts) - 4} more' if len(parts) > 4 else ''}{things.suffix}."
+        rest = len(parts) - SENTENCES.max_named
+        shown = "; ".join([*parts[: SENTENCES.max_named], *([f"and {rest} more"] if rest > 0 else [])])
+        sentence = f"{shown}{things.suffix}."
         named = tuple(dict.fromkeys(facts.path(iri) for iri in places))
         return InterpretedAnswer(
             f"where: {things.text}", self._things.located(things.iris), sentence=sentence, places=named
@@ -189,7 +189,7 @@ class _Answerer:
         if not wholes.iris:
             if self._nouns.is_whole_scene(wholes.text):
                 return self._how_many(kind)
-            raise GraphError(self._things.absent(wholes).removesuffix("."))
+            raise GraphError(wholes.absence)
         parts = self._nouns.related("part", wholes.iris, is_direct=True)
         if not parts:
             raise GraphError(f"not known: the graph states no parts of {wholes.text} as objects of their own")
@@ -210,15 +210,15 @@ class _Answerer:
     def _has_parts(self, kind: str, thing: str) -> InterpretedAnswer:
         found = self._parts_of(kind, thing)
         yes = bool(found.number)
-        sentence = f"{'Yes' if yes else 'No'}: {found.sentence[0].lower()}{found.sentence[1:]}"
+        sentence = yes_or_no(yes, found.sentence)
         return InterpretedAnswer(f"whether there are {found.understood}", found.answer, yes, sentence=sentence)
 
     def _parts(self, thing: str) -> InterpretedAnswer:
-        answers = [self._graph.parts_of(self._facts.path(iri)) for iri in self._things.found(thing).iris]
+        answers = [self._graph.parts_of(self._facts.path(iri)) for iri in self._nouns.existing(thing).iris]
         return InterpretedAnswer(f"parts of {thing}", join_answers(answers))
 
     def _about(self, thing: str) -> InterpretedAnswer:
-        answers = [description_answer(self._graph, self._facts.path(iri)) for iri in self._things.found(thing).iris]
+        answers = [description_answer(self._graph, self._facts.path(iri)) for iri in self._nouns.existing(thing).iris]
         return InterpretedAnswer(f"all about {thing}", join_answers(answers))
 
     def _changed(self, change: str = "changed", thing: str | None = None) -> InterpretedAnswer:
@@ -228,7 +228,7 @@ class _Answerer:
         if self._since is None:
             raise GraphError(NEEDS_OLDER_VERSION)
         kind = word_map("assistant", "change_words").get(change.lower(), "changed")
-        paths = None if thing is None else frozenset(map(self._facts.path, self._things.found(thing).iris))
+        paths = None if thing is None else frozenset(map(self._facts.path, self._nouns.existing(thing).iris))
         return answer_changes(changes_since(self._since, self._graph), kind, paths)
 
     def _ready_question(self, question: str, given: Mapping[str, str]) -> InterpretedAnswer:
@@ -241,14 +241,14 @@ class _Answerer:
             return self._nearest(understood, values)
         if "thing" not in values:
             return InterpretedAnswer(understood, self._graph.answer(question, values))
-        paths = [self._facts.path(iri) for iri in self._things.found(values["thing"]).iris]
+        paths = [self._facts.path(iri) for iri in self._nouns.existing(values["thing"]).iris]
         answers = [self._graph.answer(question, {**values, "thing": path}) for path in paths]
         found = join_answers(answers)
         return InterpretedAnswer(understood, found)
 
     def _to_open(self, thing: str, other: str = "") -> InterpretedAnswer:
         """Return what is in the way of a thing that opens: by its joint, else by the boxes in front of it."""
-        things = self._things.found(thing)
+        things = self._nouns.existing(thing)
         carried = self._nouns.around("on", other, is_direct=False) if other else None
         found = self._ready_question("to-open", {"thing": thing})
         if found.answer.rows or not self._facts.opened_by_joint.isdisjoint(things.iris):
@@ -286,15 +286,15 @@ class _Answerer:
         )
 
     def _nearest(self, understood: str, values: Mapping[str, str]) -> InterpretedAnswer:
-        anchors, facts = self._things.found(values["thing"]), self._facts
+        anchors, facts = self._nouns.existing(values["thing"]), self._facts
         what = self._nouns.find(values.get("class", "things"))
-        # What holds a thing, and the shell of a room, is no neighbour of it.
+        # What holds a thing, and the shell of a room, is not a neighbour of it.
         holders = {one for iri in anchors.iris for name in ("on", "inside", "room") for one in facts.anchors(name, iri)}
         holders |= {iri for noun in word_set("assistant", "shells") for iri in self._nouns.find(noun).iris}
         candidates = what.iris if "class" in values else [iri for iri in what.iris if iri not in holders]
         gaps = self._bodies.gaps(candidates, anchors.iris)
         if not what.iris:
-            return InterpretedAnswer(understood, facts.table(()), sentence=begin_sentence(self._things.absent(what)))
+            return InterpretedAnswer(understood, facts.table(()), sentence=f"{begin_sentence(what.absence)}.")
         if not gaps:
             raise GraphError(f"not known: the graph has no boxes for {what.text} or for {anchors.text}")
         nearest = min(gaps, key=lambda iri: (gaps[iri], facts.path(iri)))
@@ -318,5 +318,5 @@ def _normalize(name: str, value: str) -> str:
     if name in {"distance", "mass"}:
         number = value.rstrip("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ ")
         unit = value[len(number) :].strip().lower()
-        return f"{number} {next((symbol for prefix, symbol in _UNITS if unit.startswith(prefix)), unit)}".strip()
+        return f"{number} {UNIT_SYMBOLS.get(unit, unit)}".strip()
     return value

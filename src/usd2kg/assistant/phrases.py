@@ -1,4 +1,4 @@
-"""match_phrase: question → frame and its parameters, by the patterns in `phrases.txt`."""
+"""match_phrase: question → question type and its parameters, by the patterns in `phrases.txt`."""
 
 import re
 from collections.abc import Mapping, Sequence
@@ -6,7 +6,9 @@ from functools import cache
 from importlib.resources import files
 from typing import NamedTuple
 
-__all__ = ["RELATIONS", "Phrase", "list_phrases", "match_phrase", "normalize"]
+from usd2kg.query.lookup.prepositions import preposition_pattern
+
+__all__ = ["Phrase", "list_phrases", "match_phrase", "normalize"]
 
 
 class Phrase(NamedTuple):
@@ -19,27 +21,11 @@ class Phrase(NamedTuple):
     is_english: bool = True
 
 
-RELATIONS = {
-    "left": "to the left of|on the left of|on the left side of|left of|links von|à gauche de|"
-    "a la izquierda de|a sinistra di",
-    "right": "to the right of|on the right of|on the right side of|right of|rechts von|à droite de|"
-    "a la derecha de|a destra di",
-    "front": "in front of|vor|devant|delante de|davanti a",
-    "behind": "behind|hinter|derrière|detrás de|dietro a",
-    "on": "on top of|on|upon|atop|auf|sur|sobre|encima de|en|su|sul|sulla|sullo|sui|sopra",
-    "inside": "inside of|inside|in|within|contained in|im|in der|in dem|dans|dentro de|nel|nella|nello",
-    "below": "below|beneath|underneath|under|undr|unter|sous|debajo de|bajo|sotto",
-    "above": "above|over|über|au-dessus de",
-    "near": "near to|near|next to|beside|besides|close to|by|at|around|touching|neben|près de|à côté de|junto a|"
-    "cerca de|accanto a|vicino a",
-    "attached": "hangs from|hang from|attached to|fixed to|fastened to|mounted on|mounted to|hanging from|hanging on",
-}
-"""Relation → how people say it, in five languages; longer ways come before their beginnings, such as in and on."""
 _PARAMETERS = {
     "thing": "[^?]+?",
     "other": "[^?]+?",
     "class": "[^?]+?",
-    "relation": "|".join(RELATIONS.values()),
+    "relation": preposition_pattern(),
     "distance": r"<number> ?((milli|centi)?met(er|re)s?|mm|cm|m)?",
     "amount": r"<number> ?([a-z]+|\")",
     "sides": r"<number>( ?[a-z]+)? ?(by|x|×) ?<number>( ?[a-z]+)? ?(by|x|×) ?<number> ?[a-z]+",
@@ -61,9 +47,9 @@ _COMMENT = re.compile(
     r",\s+(?:[^,]+ (?:together|altogether|included|combined|counted|in total)|(?:including|counting) [^,]+)$",
     re.IGNORECASE,
 )
-"""A remark that nothing is left out, which changes no question: `doors, folding doors included`."""
+"""A remark on what is counted, which does not change the question: `doors, folding doors included`."""
 _HEADINGS = {"# German, French, Spanish and Italian.": False, "# English.": True}
-"""Heading of frames → whether they are English."""
+"""Heading of patterns → whether they are English."""
 _APOSTROPHE = "\u2019"
 
 

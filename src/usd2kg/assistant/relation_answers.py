@@ -5,14 +5,14 @@ from collections.abc import Callable, Sequence
 from usd2kg.assistant.directions import find_beside, find_between
 from usd2kg.assistant.interpreted_answer import InterpretedAnswer
 from usd2kg.assistant.measures import MeasureAnswers
-from usd2kg.assistant.phrases import RELATIONS
-from usd2kg.assistant.sentences import begin_sentence, is_plural, name_things, split_number
+from usd2kg.assistant.sentences import begin_sentence, name_things, split_number, yes_or_no
 from usd2kg.assistant.thing_lists import ThingLists, column_of
 from usd2kg.errors import GraphError
 from usd2kg.knowledge import word_set
 from usd2kg.query import GraphStore
 from usd2kg.query.lookup import Nouns, Things, UnknownWordError
-from usd2kg.query.lookup.word_forms import split_phrase
+from usd2kg.query.lookup.prepositions import RELATION_OF
+from usd2kg.query.lookup.word_forms import is_plural, split_phrase
 
 __all__ = ["PREPOSITIONS", "RelationAnswers"]
 
@@ -44,7 +44,7 @@ class RelationAnswers:
         self._things = ThingLists(graph.facts, nouns)
 
     def find(self, question: str) -> Callable[..., InterpretedAnswer] | None:
-        """Return the method that answers a frame; None if it is another's."""
+        """Return the method that answers a question type; None if it is another's."""
         handlers: dict[str, Callable[..., InterpretedAnswer]] = {
             "between": self._between,
             "between-two": lambda kind: self._between(*self.pair(kind)),
@@ -62,7 +62,7 @@ class RelationAnswers:
         if other:
             # “Which chairs have a cushion on them?”: the anchors.
             anchors, targets = self._nouns.find(kind), set(self._nouns.find(other).iris)
-            name = _relation(relation)
+            name = RELATION_OF[relation.lower()]
             chosen = [iri for iri in anchors.iris if self._nouns.related(name, [iri], is_direct=False) & targets]
             return self._things.answer(Things(tuple(chosen), f"{anchors.text} with {other} {PREPOSITIONS[name]} them"))
         return self._related(relation, thing, kind)
@@ -77,12 +77,12 @@ class RelationAnswers:
         count, kind = split_number(kind)
         found = self._related(relation, thing, kind)
         yes = len(found.answer.rows) >= count
-        said = f"{'Yes' if yes else 'No'}: {found.sentence[0].lower()}{found.sentence[1:]}"
+        said = yes_or_no(yes, found.sentence)
         return InterpretedAnswer(f"whether {found.understood}", found.answer, yes, sentence=said)
 
     def _related(self, relation: str, thing: str, kind: str | None) -> InterpretedAnswer:
         """Return the things of a kind, or all things, in a relation to others."""
-        name, facts = _relation(relation), self._facts
+        name, facts = RELATION_OF[relation.lower()], self._facts
         what = None if kind is None else self._nouns.find(kind)
         if what is not None:
             self._things.check_kind(what)
@@ -105,7 +105,7 @@ class RelationAnswers:
             named = name_things(facts, chosen)
             sentence = begin_sentence(f"{named} {verb} {place}{notes}.")
         elif what is not None and not what.iris:
-            sentence = begin_sentence(self._things.absent(what))
+            sentence = f"{begin_sentence(what.absence)}."
         else:
             named = "Nothing" if what is None or what.text == "thing" else f"No {what.text}"
             sentence = f"{named} {'are' if what is not None and is_plural(what.text) else 'is'} {place}{notes}."
@@ -131,7 +131,7 @@ class RelationAnswers:
         if relation == "inside" and self._nouns.is_whole_scene(noun):
             return Things((), noun)
         if relation == "inside" and self._nouns.lacks_room(noun):
-            raise GraphError(f"there is no {noun} in this scene")
+            raise GraphError(Things((), noun).absence)
         try:
             things = self._nouns.find(text)
         except UnknownWordError:
@@ -140,7 +140,7 @@ class RelationAnswers:
             raise
         self._things.check_kind(things)
         if not things.iris and not (relation == "inside" and self._nouns.in_area(text)):
-            raise GraphError(self._things.absent(things).removesuffix("."))
+            raise GraphError(things.absence)
         return things
 
     def _by_relation(self, name: str, text: str, anchors: Things, *, is_direct: bool) -> set[str]:
@@ -163,7 +163,7 @@ class RelationAnswers:
         found = [find_beside(self._facts, name, iri) for iri in anchors.iris]
         if any(one is None for one in found):
             raise GraphError(f"not known: the graph has no viewpoint, and the boxes around {anchors.text} suggest none")
-        note = " (by boxes, seen from amid the things around)"
+        note = " (by boxes, as seen from among the surrounding objects)"
         return {iri for one in found for iri in one or ()}, note
 
     def pair(self, kind: str) -> tuple[str, str]:
@@ -172,14 +172,14 @@ class RelationAnswers:
         Raises:
             GraphError: there are not two.
         """
-        things = self._things.found(kind)
+        things = self._nouns.existing(kind)
         if len(things.iris) != 2:
             raise GraphError(f"there are {len(things.iris)} {things.text}; expected two, or the names of two")
         one, other = map(self._facts.path, things.iris)
         return one, other
 
     def _between(self, thing: str, other: str) -> InterpretedAnswer:
-        first, second = self._things.found(thing), self._things.found(other)
+        first, second = self._nouns.existing(thing), self._nouns.existing(other)
         pairs = [(one, two) for one in first.iris for two in second.iris if one != two]
         if len(pairs) != 1:
             raise GraphError(f"{thing!r} and {other!r} are {len(pairs)} pairs of things; expected the name of one each")
@@ -201,8 +201,3 @@ class RelationAnswers:
         answers = [self._graph.answer("below", {"thing": self._facts.path(iri)}) for iri in anchors]
         below = {iri for answer in answers for path in column_of(answer, "path") for iri in self._facts.at_path(path)}
         return below | {iri for anchor in anchors for iri in self._measures.between_legs(anchor)}
-
-
-def _relation(text: str) -> str:
-    """Return the relation that a preposition means."""
-    return next(name for name, words in RELATIONS.items() if text.lower() in words.split("|"))

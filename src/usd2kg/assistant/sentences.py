@@ -3,26 +3,26 @@
 from collections import Counter
 from collections.abc import Sequence
 
+from usd2kg.assistant.settings import SENTENCES
 from usd2kg.query.lookup import SceneFacts
-from usd2kg.query.lookup.word_forms import IRREGULAR_PLURALS, singular
+from usd2kg.query.lookup.word_forms import IRREGULAR_PLURALS
 
 __all__ = [
     "NUMBER_WORDS",
     "begin_sentence",
     "count_phrase",
-    "is_plural",
+    "join_few",
     "join_words",
     "name_things",
     "number_text",
     "plural",
     "split_number",
     "the_thing",
+    "yes_or_no",
 ]
 
 _NUMBERS = ("no", "one", "two", "three", "four", "five", "six", "seven", "eight", "nine", "ten", "eleven", "twelve")
 NUMBER_WORDS = {word: number for number, word in enumerate(_NUMBERS) if number}
-_MOST_NAMED = 6
-"""Kinds of things that a sentence names."""
 _SAME_PLURAL = frozenset(["cutlery", "equipment", "furniture", "scissors", "sheep", "stairs"])
 
 
@@ -38,6 +38,25 @@ def join_words(words: Sequence[str], last: str = "and") -> str:
     'a cup, a plate and two forks'
     """
     return words[0] if len(words) == 1 else f"{', '.join(words[:-1])} {last} {words[-1]}" if words else ""
+
+
+def join_few(words: Sequence[str]) -> str:
+    """Return the first few of some words as a list in English, and the number of the others.
+
+    >>> join_few(["A", "B", "C", "D", "E", "F"])
+    'A, B, C, D and 2 more'
+    """
+    rest = len(words) - SENTENCES.max_named
+    return join_words([*words[: SENTENCES.max_named], *([f"{rest} more"] if rest > 0 else [])])
+
+
+def yes_or_no(verdict: bool, reason: str) -> str:
+    """Return a verdict with its reason, which is a sentence.
+
+    >>> yes_or_no(True, "There is a cup.")
+    'Yes: there is a cup.'
+    """
+    return f"{'Yes' if verdict else 'No'}: {reason[:1].lower()}{reason[1:]}"
 
 
 def count_phrase(count: int, noun: str) -> str:
@@ -81,19 +100,10 @@ def name_things(facts: SceneFacts, iris: Sequence[str]) -> str:
     """Return what some objects are, by number and kind: two cups and a kettle."""
     counts = Counter(facts.kind(iri) for iri in iris)
     kinds = sorted(counts, key=lambda kind: (-counts[kind], kind))
-    named = [count_phrase(counts[kind], kind) for kind in kinds[:_MOST_NAMED]]
-    if rest := sum(counts[kind] for kind in kinds[_MOST_NAMED:]):
+    named = [count_phrase(counts[kind], kind) for kind in kinds[: SENTENCES.max_kinds]]
+    if rest := sum(counts[kind] for kind in kinds[SENTENCES.max_kinds :]):
         named.append(count_phrase(rest, "other thing"))
     return join_words(named)
-
-
-def is_plural(noun: str) -> bool:
-    """Return whether the last word of a noun is a plural.
-
-    >>> is_plural("wine glasses"), is_plural("glass"), is_plural("sheep")
-    (True, False, False)
-    """
-    return singular(last := noun.rsplit(maxsplit=1)[-1]) != last if noun else False
 
 
 def split_number(text: str) -> tuple[int, str]:

@@ -10,11 +10,13 @@ __all__ = [
     "PLACING",
     "PROMPT",
     "RESULTS",
+    "SENTENCES",
     "DirectionSettings",
     "OpeningSettings",
     "PlacingSettings",
     "PromptSettings",
     "ResultSettings",
+    "SentenceSettings",
 ]
 
 
@@ -25,6 +27,14 @@ class ResultSettings:
     max_rows: int
     max_listed: int
     max_described: int
+
+
+@dataclass(frozen=True)
+class SentenceSettings:
+    """Numbers of things that a sentence names."""
+
+    max_named: int
+    max_kinds: int
 
 
 @dataclass(frozen=True)
@@ -72,6 +82,7 @@ class OpeningSettings:
 
 
 RESULTS = read_settings("assistant", "results", ResultSettings)
+SENTENCES = read_settings("assistant", "sentences", SentenceSettings)
 PROMPT = read_settings("assistant", "prompt", PromptSettings)
 DIRECTIONS = read_settings("assistant", "directions", DirectionSettings)
 OPENING = read_settings("assistant", "opening", OpeningSettings)

@@ -3,14 +3,12 @@
 from collections.abc import Sequence
 
 from usd2kg.assistant.interpreted_answer import InterpretedAnswer
-from usd2kg.assistant.sentences import begin_sentence, count_phrase, is_plural, join_words, name_things, the_thing
+from usd2kg.assistant.sentences import begin_sentence, count_phrase, join_few, name_things, the_thing
 from usd2kg.errors import GraphError
 from usd2kg.query import Answer
 from usd2kg.query.lookup import Nouns, SceneFacts, Things
 
 __all__ = ["ThingLists", "column_of"]
-
-_MOST_NAMED = 4
 
 
 class ThingLists:
@@ -24,24 +22,19 @@ class ThingLists:
         """Return the answer that lists things."""
         table = self.located(things.iris)
         if not things.iris:
-            return InterpretedAnswer(f"all {things.text}", table, sentence=begin_sentence(self.absent(things)))
+            return InterpretedAnswer(f"all {things.text}", table, sentence=f"{begin_sentence(things.absence)}.")
         verb = "is" if len(things.iris) == 1 else "are"
         sentence = f"There {verb} {name_things(self._facts, things.iris)}{things.suffix}."
         return InterpretedAnswer(f"all {things.text}", table, sentence=sentence)
 
-    def absent(self, things: Things) -> str:
-        """Return the sentence that there are no such things; its first letter is small."""
-        verb = "are" if is_plural(things.text) else "is"
-        return f"there {verb} no {things.text} in this scene{things.suffix}."
-
     def check_kind(self, things: Things) -> None:
-        """Check that things are what the words say, and not only named after it.
+        """Check that things are of the kind that the words name; a shoe rack is not a shoe.
 
         Raises:
             GraphError: the words only occur in the names of other things.
         """
         if things.is_by_name:
-            labels = join_words([self._facts.label(iri) for iri in things.iris[:_MOST_NAMED]])
+            labels = join_few([self._facts.label(iri) for iri in things.iris])
             raise GraphError(f"not known: nothing is known to be {things.text}, which is only in the name of {labels}")
 
     def located(self, iris: Sequence[str]) -> Answer:
@@ -56,24 +49,13 @@ class ThingLists:
         return facts.table(facts.sorted(iris), on=on, inside=inside)
 
     def the(self, things: Things) -> str:
-        """Return things as they are named after they were found: by kind and label, or by number."""
+        """Return the noun phrase for things in an answer: kind and label of one, number and kind of several."""
         labels = [self._facts.label(iri) for iri in things.iris]
         if not labels:
             return things.text
         if len(labels) == 1:
             return the_thing(self._facts.kind(things.iris[0]), labels[0])
         return f"the {count_phrase(len(labels), things.text)}"
-
-    def found(self, text: str) -> Things:
-        """Return things that exist.
-
-        Raises:
-            GraphError: there are none.
-        """
-        things = self._nouns.find(text)
-        if not things.iris:
-            raise GraphError(self.absent(things).removesuffix("."))
-        return things
 
 
 def column_of(answer: Answer, name: str) -> list[str]:

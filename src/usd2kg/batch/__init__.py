@@ -1,7 +1,7 @@
 """Many scenes: found by patterns, built by a pool of processes, recorded in a manifest that survives a crash."""
 
 from usd2kg.batch.job import Job, Outcome, Task
-from usd2kg.batch.manifest import Manifest, Record, Status
+from usd2kg.batch.manifest import JobStatus, Manifest, Record
 from usd2kg.batch.process_pool import PoolLimits, run_in_processes
 from usd2kg.batch.run import BatchPlan, Built, plan_batch, run_batch
 from usd2kg.batch.scene_files import SceneFile, find_scene_files
@@ -10,12 +10,12 @@ __all__ = [
     "BatchPlan",
     "Built",
     "Job",
+    "JobStatus",
     "Manifest",
     "Outcome",
     "PoolLimits",
     "Record",
     "SceneFile",
-    "Status",
     "Task",
     "find_scene_files",
     "plan_batch",

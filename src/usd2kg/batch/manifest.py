@@ -1,21 +1,19 @@
 """Manifest: what became of each scene of a batch, one JSON record a line."""
 
-import errno
 import json
-import os
 from collections.abc import Iterator, Mapping
 from dataclasses import asdict, dataclass, field
 from enum import StrEnum
-from hashlib import sha256
 from pathlib import Path
 from typing import Any, Self
 
+from usd2kg.append_only import AppendOnlyFile, whole_lines
 from usd2kg.errors import OutputError
 
-__all__ = ["Manifest", "Record", "SourceState", "Status", "hash_file"]
+__all__ = ["JobStatus", "Manifest", "Record", "SourceState"]
 
 
-class Status(StrEnum):
+class JobStatus(StrEnum):
     """How the last attempt ended."""
 
     DONE = "done"
@@ -42,7 +40,7 @@ class Record:
 
     scene: str
     """Its name in the batch."""
-    status: Status
+    status: JobStatus
     options: str
     """Hash of the options and the ontology."""
     source: SourceState
@@ -69,20 +67,17 @@ class Manifest:
         """Open the manifest, or start it.
 
         Raises:
-            OutputError: the file is no manifest, or cannot be written.
+            OutputError: the file is not a manifest, or cannot be written.
         """
         self.path = path
         self._records: dict[str, Record] = {}
         if path.exists() and not path.is_file():
-            raise OutputError(f"{path}: is no file; choose another output folder")
+            raise OutputError(f"{path}: is not a file; choose another output folder")
         try:
             data = path.read_bytes() if path.exists() else b""
-            whole = data[: data.rfind(b"\n") + 1]
+            whole = whole_lines(data)
             self._records.update((record.scene, record) for record in _read(path, whole.decode("utf-8")))
-            # Without a buffer, which would be written again when the file is closed.
-            self._file = path.open("ab", buffering=0)
-            if len(whole) < len(data):
-                self._file.truncate(len(whole))
+            self._file = AppendOnlyFile(path, len(whole))
         except (OSError, UnicodeDecodeError) as error:
             raise OutputError(f"{path}: cannot be used as a manifest ({error}); choose another folder") from error
 
@@ -96,14 +91,10 @@ class Manifest:
         Raises:
             OutputError: it cannot be written; a part of it is removed.
         """
-        size = self.path.stat().st_size
         line = json.dumps(asdict(record), ensure_ascii=True, separators=(",", ":")).encode() + b"\n"
         try:
-            if self._file.write(line) < len(line):
-                raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC))
-            os.fsync(self._file.fileno())
+            self._file.append(line)
         except OSError as error:
-            _cut(self._file, size)
             raise OutputError(
                 f"{self.path}: cannot be written ({error.strerror}); free space and run it again"
             ) from error
@@ -120,29 +111,13 @@ class Manifest:
         self.close()
 
 
-def hash_file(path: Path) -> str:
-    """Return the SHA-256 of a file as hexadecimal digits."""
-    with path.open("rb") as file:
-        digest = sha256()
-        while block := file.read(1 << 20):
-            digest.update(block)
-    return digest.hexdigest()
-
-
 def _read(path: Path, text: str) -> Iterator[Record]:
     for number, line in enumerate(text.splitlines(), 1):
         try:
             values = json.loads(line)
             source = SourceState(**values.pop("source"))
-            yield Record(status=Status(values.pop("status")), source=source, **values)
+            yield Record(status=JobStatus(values.pop("status")), source=source, **values)
         except (ValueError, TypeError, KeyError, AttributeError) as error:
             raise OutputError(
-                f"{path}: line {number} is no record of a batch ({error}); choose another output folder"
+                f"{path}: line {number} is not a record of a batch ({error}); choose another output folder"
             ) from error
-
-
-def _cut(file: Any, size: int) -> None:
-    try:
-        file.truncate(size)
-    except OSError:
-        return

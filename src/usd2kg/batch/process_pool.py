@@ -206,7 +206,7 @@ def _context() -> "ForkServerContext | SpawnContext":
     if "forkserver" not in multiprocessing.get_all_start_methods():
         return multiprocessing.get_context("spawn")
     context = multiprocessing.get_context("forkserver")
-    context.set_forkserver_preload(["usd2kg.batch.shared_pages"])
+    context.set_forkserver_preload(["usd2kg.batch.worker_preload"])
     return context
 
 

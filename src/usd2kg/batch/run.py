@@ -8,9 +8,10 @@ from typing import NamedTuple
 from urllib.parse import quote
 
 from usd2kg.batch.job import Job, Outcome
-from usd2kg.batch.manifest import Manifest, Record, SourceState, Status, hash_file
+from usd2kg.batch.manifest import JobStatus, Manifest, Record, SourceState
 from usd2kg.batch.scene_files import SceneFile, output_names
 from usd2kg.errors import OutputError, Usd2kgError, one_line
+from usd2kg.files import hash_file
 from usd2kg.graph.iris import check_base
 
 __all__ = ["BatchPlan", "Built", "plan_batch", "run_batch"]
@@ -93,7 +94,7 @@ def plan_batch(
 
 
 def _is_finished(record: Record, job: Job, state: SourceState, options: str) -> bool:
-    if record.status is not Status.DONE or (record.options, record.source) != (options, state):
+    if record.status is not JobStatus.DONE or (record.options, record.source) != (options, state):
         return False
     return job.target.is_file() and hash_file(job.target) == record.sha256
 
@@ -137,7 +138,7 @@ def _record(outcome: Outcome, error: str, options: str, source: SourceState, fol
     job, is_done = outcome.job, outcome.summary is not None and not error
     return Record(
         scene=job.name,
-        status=Status.DONE if is_done else Status.FAILED,
+        status=JobStatus.DONE if is_done else JobStatus.FAILED,
         options=options,
         source=source,
         output=job.target.relative_to(folder).as_posix() if is_done else "",

@@ -10,7 +10,7 @@ from usd2kg.cli.options.common import JsonOutput
 from usd2kg.cli.options.model import CompletionCacheFile, ModelName
 from usd2kg.cli.options.stores import GraphSource, SceneName
 from usd2kg.cli.output import emit, notify, print_json
-from usd2kg.cli.query import answer_rows, answer_text
+from usd2kg.cli.query import answer_text
 from usd2kg.errors import GraphError, Usd2kgError
 
 if TYPE_CHECKING:
@@ -79,7 +79,7 @@ def _ask_scenes(place: str, scene: str | None, text: str, since: Path | None, is
 
 
 def _as_json(asked: "InterpretedAnswer") -> dict[str, Any]:
-    return {**asked.as_json(), "sparql": asked.answer.sparql, "rows": answer_rows(asked.answer)}
+    return {**asked.as_json(), "sparql": asked.answer.sparql, "rows": asked.answer.as_dicts()}
 
 
 def _ask_model(graph: "GraphStore", text: str, model: str, completions: Path | None) -> "InterpretedAnswer":

@@ -98,7 +98,10 @@ def batch_command(
     profile: Profile = "auto",
     merge_imports: MergedImports = False,
     file_format: Annotated[
-        str, Option("--format", help="Ending of the graphs: ttl, trig, nt, nq, rdf, owl or jsonld, also with .gz.")
+        str,
+        Option(
+            "--format", help="Ending of the graphs: ttl, nt, trig, nq, rdf, owl, jsonld, ofn or graphml, also with .gz."
+        ),
     ] = "ttl",
     exclude_scenes: Annotated[
         list[str] | None,
@@ -207,7 +210,7 @@ def _loader(store: "SceneStore | None") -> "Callable[[Job], None]":
 
 
 def _hash_options(task: _BuildTask, tboxes: "Iterable[TBox]", ending: str, base: str) -> str:
-    """Return a hash of what the graphs depend on besides the scenes: options, their files, ontology and version."""
+    """Return a hash of what the graphs depend on apart from the scenes: options, their files, ontology and version."""
     from importlib.metadata import version  # noqa: PLC0415
 
     steps = task.steps

@@ -10,7 +10,7 @@ from usd2kg.cli.build_summary import summarize_build, summary_text
 from usd2kg.cli.limits import DEMO_ROWS
 from usd2kg.cli.options.common import JsonOutput
 from usd2kg.cli.output import emit, print_json
-from usd2kg.cli.query import answer_rows, answer_text
+from usd2kg.cli.query import answer_text
 
 __all__ = ["demo_command"]
 
@@ -39,7 +39,7 @@ def demo_command(
     store = load_graph(output)
     answers = {question: store.ask(question.split()) for question in _QUESTIONS}
     if json:
-        print_json({**summary, "answers": {question: answer_rows(answer) for question, answer in answers.items()}})
+        print_json({**summary, "answers": {question: answer.as_dicts() for question, answer in answers.items()}})
         return
     emit(summary_text(summary) + "\n")
     for question, answer in answers.items():

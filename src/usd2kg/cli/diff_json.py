@@ -1,11 +1,11 @@
 """The changes between two versions of a scene as JSON data."""
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterator
 from dataclasses import asdict
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    from usd2kg.diff import Change, Changes, Link, ObjectState, Tolerances
+    from usd2kg.diff import Change, Changes, ObjectState, Tolerances
 
 __all__ = ["changes_json"]
 
@@ -38,12 +38,8 @@ def _thing(thing: "ObjectState") -> dict[str, Any]:
         "center_m": thing.center,
         "mass_kg": thing.mass_kg,
         "assets": sorted(thing.assets),
-        "relations": _links(sorted(thing.links)),
+        "relations": [link._asdict() for link in sorted(thing.links)],
     }
-
-
-def _links(links: "Iterable[Link]") -> list[dict[str, str]]:
-    return [{"kind": link.kind, "anchor": link.anchor} for link in links]
 
 
 def _change(change: "Change", tolerances: "Tolerances") -> "Iterator[tuple[str, Any]]":
@@ -72,4 +68,5 @@ def _change(change: "Change", tolerances: "Tolerances") -> "Iterator[tuple[str, 
     if change.assets is not None:
         yield "assets", {"old": sorted(change.assets[0]), "new": sorted(change.assets[1])}
     if change.gained or change.lost:
-        yield "relations", {"gained": _links(change.gained), "lost": _links(change.lost)}
+        gained, lost = ([link._asdict() for link in links] for links in (change.gained, change.lost))
+        yield "relations", {"gained": gained, "lost": lost}

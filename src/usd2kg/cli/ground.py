@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 from typer import Option
 
-from usd2kg.cli.grounder_session import GrounderSession, open_session, show_progress
+from usd2kg.cli.grounder_session import GrounderSession, open_grounder_session, show_progress
 from usd2kg.cli.options.bundles import check_files, expand_bundles
 from usd2kg.cli.options.common import BaseIri, OntologyFile, SceneFile, TextFile
 from usd2kg.cli.options.grounding import AbbreviatedLength, GroundingOptions
@@ -81,7 +81,7 @@ def ground_command(
         found = read_scene(scene, paths=wanted, options=read_options)
         tbox = open_tbox(ontology, scene=found)
         notify_notes(tbox)
-        with open_session(grounding, found, tbox, scene, read_options, carry_over) as session:
+        with open_grounder_session(grounding, found, tbox, scene, read_options, carry_over) as session:
             if session.model is not None and grounding.model.requests.dry_run:
                 _print_dry_run(session, found, tbox, wanted, abbreviated_length, output)
                 return

@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from usd2kg.ontology import ClassIRI, TBox
     from usd2kg.scene import ReadOptions, Scene
 
-__all__ = ["GrounderSession", "open_session", "show_progress"]
+__all__ = ["GrounderSession", "open_grounder_session", "show_progress"]
 
 
 @dataclass(frozen=True)
@@ -66,7 +66,7 @@ def show_progress(options: GroundingOptions, *steps: str) -> AbstractContextMana
 
 
 @contextmanager
-def open_session(
+def open_grounder_session(
     options: GroundingOptions,
     scene: "Scene",
     tbox: "TBox",

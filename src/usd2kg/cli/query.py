@@ -1,7 +1,7 @@
 """usd2kg query: answers from a graph."""
 
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import TYPE_CHECKING, Annotated
 
 from typer import Argument, Option
 
@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 
     from usd2kg.query import Answer, GraphStore
 
-__all__ = ["answer_rows", "answer_text", "ask_scenes", "query_command", "read_sparql"]
+__all__ = ["answer_text", "ask_scenes", "query_command", "read_sparql"]
 
 
 def query_command(
@@ -59,7 +59,7 @@ def query_command(
             "or --sparql with a query"
         )
     if given and question is None:
-        raise GraphError("query: --with sets a parameter of --question; expected --question ID beside it")
+        raise GraphError("query: --with sets a parameter of --question; expected --question ID with it")
     if sparql is not None and is_store(graph):
         # A server evaluates the query itself; its graphs may exceed the memory here.
         store = open_store(graph)
@@ -74,7 +74,7 @@ def query_command(
     if explain:
         emit(f"{with_prefixes(answer.sparql)}\n")
     elif json:
-        print_json(answer_rows(answer))
+        print_json(answer.as_dicts())
     else:
         emit(answer_text(answer))
 
@@ -163,11 +163,6 @@ def read_sparql(text: str) -> str:
         return Path(text[1:]).read_text("utf-8")
     except (OSError, UnicodeDecodeError) as error:
         raise GraphError(f"{text[1:]}: cannot be read as a query ({error})") from error
-
-
-def answer_rows(answer: "Answer") -> list[dict[str, Any]]:
-    """Return the rows of an answer by column."""
-    return [dict(zip(answer.columns, row, strict=True)) for row in answer.values]
 
 
 def answer_text(answer: "Answer", limit: int | None = None) -> str:

@@ -6,7 +6,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from usd2kg.cli.grounder_session import GrounderSession, open_session
+from usd2kg.cli.grounder_session import GrounderSession, open_grounder_session
 from usd2kg.cli.options.graph import AnnotationOptions, SpatialOptions
 from usd2kg.cli.options.grounding import GroundingOptions
 from usd2kg.cli.options.review import CarryOverOptions
@@ -58,7 +58,7 @@ class SceneBuild:
         options = self.reading.read_options()
         scene = read_scene(source, options=options)
         tbox = tbox or open_tbox(None, scene=scene)
-        with open_session(self.grounding, scene, tbox, source, options, self.carry_over) as session:
+        with open_grounder_session(self.grounding, scene, tbox, source, options, self.carry_over) as session:
             result = build(
                 scene,
                 tbox,

@@ -1,12 +1,10 @@
 """Origin: what a converted stage was made from, kept in `customLayerData` of its root layer."""
 
-import hashlib
 from collections.abc import Mapping
 from dataclasses import asdict, dataclass, fields
-from pathlib import Path
 from typing import Any
 
-__all__ = ["SOURCE_ID", "Origin", "hash_file", "read_origin", "write_origin"]
+__all__ = ["SOURCE_ID", "Origin", "read_origin", "write_origin"]
 
 SOURCE_ID = "usd2kgSourceId"
 """Key in `customData` of a prim: its identifier in the file that the stage was converted from."""
@@ -24,12 +22,6 @@ class Origin:
     format: str
     converter: str
     """Name and version, such as `trimesh 5.2.0`."""
-
-
-def hash_file(path: Path) -> str:
-    """Return `sha256:` and the digest of a file."""
-    with path.open("rb") as file:
-        return "sha256:" + hashlib.file_digest(file, "sha256").hexdigest()
 
 
 def write_origin(layer: Any, origin: Origin) -> None:

@@ -48,7 +48,7 @@ class PrimAuthor:
         self._next: dict[tuple[str, str], int] = {}
 
     def define(self, parent: str, name: str, type_name: str = "Xform") -> Usd.Prim:
-        """Return a new prim below the path `parent`; the display name keeps a name that is no valid prim name."""
+        """Return a new prim below the path `parent`; the display name keeps a name that is not a valid prim name."""
         path = Sdf.Path(parent).AppendChild(self._free_name(parent, safe_name(name)))
         prim = self.stage.DefinePrim(path, type_name)
         if path.name != name and name:

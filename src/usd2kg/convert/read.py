@@ -5,8 +5,9 @@ from pathlib import Path
 
 from usd2kg.convert.converted import Converted, parse_error
 from usd2kg.convert.formats import SourceFormat
-from usd2kg.convert.origin import Origin, hash_file, write_origin
+from usd2kg.convert.origin import Origin, write_origin
 from usd2kg.errors import SceneError, Usd2kgError
+from usd2kg.files import hash_file
 
 __all__ = ["convert_stage"]
 
@@ -28,6 +29,6 @@ def convert_stage(path: Path, source_format: SourceFormat) -> Converted:
     except Exception as error:
         # The libraries that parse a damaged file may raise anything.
         raise parse_error(path, error, f"a whole {source_format.name} file") from error
-    origin = Origin(path.name, hash_file(path), source_format.name, converted.converter)
+    origin = Origin(path.name, f"sha256:{hash_file(path)}", source_format.name, converted.converter)
     write_origin(converted.stage.GetRootLayer(), origin)
     return converted

@@ -49,7 +49,7 @@ def color_scene(
         of_object = {p.prim_path: p.concept for p in predictions}
         labels = {iri: grounding.concepts[iri].label for iri in sorted(grounding.concepts)}
         return color_by_group(of_object, labels, of_object, "no concept")
-    kinds, none = (("room",), "no room") if mode is ColorMode.ROOM else (("on", "inside"), "on and in nothing")
+    kinds, none = (("room",), "no room") if mode is ColorMode.ROOM else (("on", "inside"), "not on or in anything")
     # Later kinds win: what is in a box on a shelf is in the box.
     anchor_of = {r.target: r.anchor for kind in kinds for r in relations if r.kind == kind}
     groups = {p.prim_path: anchor_of.get(p.prim_path) for p in predictions}

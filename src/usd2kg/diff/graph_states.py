@@ -1,6 +1,5 @@
 """The objects that the statements of a graph describe, and the style in which they are written."""
 
-import math
 from collections.abc import Iterable, Iterator
 from itertools import pairwise
 from typing import Any, NamedTuple
@@ -10,6 +9,7 @@ import pyoxigraph as ox
 from usd2kg.diff.object_state import Link, ObjectState, Quaternion, Vector
 from usd2kg.errors import GraphError
 from usd2kg.garbage import paused_collection
+from usd2kg.graph.literal_numbers import parse_numbers
 from usd2kg.graph.relation_patterns import KIND_OF_INVERSE, KIND_OF_PROPERTY
 from usd2kg.graph.vocabulary import DUL, OWL, RDF, RDFS, SOMA, U2K, USD
 from usd2kg.ontology import local_name
@@ -20,7 +20,6 @@ __all__ = [
     "as_vector",
     "detect_graph_style",
     "objects_of_graph",
-    "parse_numbers",
 ]
 
 _GENERAL_CLASSES = {OWL.NamedIndividual, USD.Prim, U2K.Object}
@@ -170,15 +169,6 @@ class _StateReader:
     def _sides(self, box: Any) -> list[float]:
         extents = ((SOMA.hasDepth, U2K.width), (SOMA.hasWidth, U2K.depth), (SOMA.hasHeight, U2K.height))
         return [side for names in extents for side in self._numbers(box, *names)]
-
-
-def parse_numbers(text: str) -> tuple[float, ...]:
-    """Return the numbers of a text; empty if one of them is malformed or not finite."""
-    try:
-        numbers = tuple(float(word) for word in text.split())
-    except ValueError:
-        return ()
-    return numbers if all(map(math.isfinite, numbers)) else ()
 
 
 def as_vector(values: Iterable[float]) -> Vector | None:

@@ -12,7 +12,7 @@ __all__ = ["BoundedProtocol"]
 
 
 class BoundedProtocol(H11Protocol):
-    """One connection. uvicorn itself waits for its client for ever."""
+    """One connection. uvicorn itself waits for its client indefinitely."""
 
     def __init__(self, connections: Connections, limits: HttpServerLimits, **options: Any) -> None:
         super().__init__(**options)

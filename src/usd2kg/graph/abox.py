@@ -10,7 +10,7 @@ import pyoxigraph as ox
 from usd2kg.errors import GraphError
 from usd2kg.garbage import paused_collection
 from usd2kg.graph.axiom_annotation import annotate_owl, annotate_rdf12
-from usd2kg.graph.concept_hierarchy import describe_concepts, state_concept
+from usd2kg.graph.concept_hierarchy import concept_triples, state_concept
 from usd2kg.graph.declarations import declare_classes, declare_terms
 from usd2kg.graph.derived_rooms import derived_room_iri, describe_derived_room, room_classes
 from usd2kg.graph.document_prefixes import document_prefixes
@@ -193,7 +193,7 @@ class _GraphBuilder:
     def _blocks(self) -> Iterator[Iterable[Triple]]:
         """Yield blocks of triples that have no triple in common."""
         yield self._provenance()
-        yield describe_concepts(self.grounding.concepts.values())
+        yield concept_triples(self.grounding.concepts.values())
         yield self._members()
         yield self._rooms()
         for obj in self.scene.objects:
@@ -267,7 +267,7 @@ class _GraphBuilder:
             about.extend(self.annotate(triples[0], relation_annotations(relation)))
 
     def _rooms(self) -> Iterator[Triple]:
-        """Yield the rooms that are no objects: group prims, and rooms without a prim."""
+        """Yield the rooms that are not objects: group prims, and rooms without a prim."""
         anchors = (r.anchor for found in self.relations.values() for r in found if r.kind in ROOM_KINDS)
         for path in dict.fromkeys(anchors):
             if path not in self.scene.by_path and path not in self.rooms:

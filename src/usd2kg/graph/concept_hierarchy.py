@@ -7,10 +7,10 @@ import pyoxigraph as ox
 from usd2kg.graph.vocabulary import RDF, SKOS, U2K, Triple, number, text
 from usd2kg.grounding import Concept, Prediction
 
-__all__ = ["describe_concepts", "state_concept"]
+__all__ = ["concept_triples", "state_concept"]
 
 
-def describe_concepts(concepts: Iterable[Concept]) -> Iterator[Triple]:
+def concept_triples(concepts: Iterable[Concept]) -> Iterator[Triple]:
     """Yield each concept with its label and its direct hypernyms."""
     for concept in concepts:
         node = ox.NamedNode(concept.iri)

@@ -15,7 +15,7 @@ __all__ = ["derived_room_iri", "describe_derived_room", "room_classes"]
 
 
 def derived_room_iri(base: str, name: str) -> str:
-    """Return the IRI of a room without a prim: a part of the stage, so that it is no prim's.
+    """Return the IRI of a room without a prim: a part of the stage, so that it is not the IRI of a prim.
 
     >>> derived_room_iri("https://my.lab/k/", "living room 2")
     'https://my.lab/k/-living-room-2'

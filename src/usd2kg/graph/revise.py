@@ -20,7 +20,7 @@ _OUTCOME = frozenset(
         *(U2K.predictedConfidence, SSSOM.reviewer_id, SSSOM.reviewer_label, U2K.concept, U2K.conceptConfidence),
     }
 )
-"""What a graph states about an object that follows from its prediction, besides the class."""
+"""What a graph states about an object that follows from its prediction, apart from the class."""
 
 
 def revise_classes(

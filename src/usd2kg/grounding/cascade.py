@@ -57,7 +57,7 @@ class CascadeGrounder:
         return {
             "first": self.first.name,
             "second": self.second.name,
-            "least_confidence": f"{self._min_confidence:g}",
+            "min_confidence": f"{self._min_confidence:g}",
             **self.first.settings,
             **self.second.settings,
         }

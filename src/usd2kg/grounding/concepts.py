@@ -65,7 +65,7 @@ def concepts_named(noun: str) -> tuple[str, ...]:
     """Return the IRIs of the concepts that a noun or compound may mean, the usual one first; empty if it is unknown."""
     from usd2kg.grounding.lexical import recognition  # noqa: PLC0415
 
-    return recognition.concepts_named(noun)
+    return recognition.concepts_of_noun(noun)
 
 
 def _classes_by_words(
@@ -95,7 +95,7 @@ def _agrees(concept: str, by_words: ClassIRI | None, chosen: ClassIRI | None, tb
         return True
     if not tbox.is_subclass(chosen, by_words):
         return False
-    # The words mean only a coarse class: of the artifacts, a ball is no bowl.
+    # The words mean only a coarse class: of the artifacts, a ball is not a bowl.
     meant = concepts_named(tbox.by_iri[chosen].label)[:1]
     return not meant or _is_below(concept, meant[0]) or _is_below(meant[0], concept)
 

@@ -17,7 +17,7 @@ class Status(StrEnum):
     GROUNDED = "grounded"
     """The evidence supports this class."""
     SUPERCLASS = "superclass"
-    """The evidence does not distinguish several classes, so a common superclass was chosen."""
+    """The evidence determines no specific class: a superclass of the candidates, or the default class of the TBox."""
     REFUSED = "refused"
     """The grounder declined to answer."""
     UNREADABLE = "unreadable"
@@ -27,7 +27,7 @@ class Status(StrEnum):
     MISSING = "missing"
     """The requested prim is not on the stage."""
     REVIEWED = "reviewed"
-    """A person decided; `Prediction.review` holds what was predicted."""
+    """A person decided, perhaps that no class fits; `Prediction.review` holds what was predicted."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -87,9 +87,10 @@ class Prediction:
 
     prim_path: str
     class_iri: ClassIRI | None
-    """None unless the status is grounded or superclass."""
+    """None unless the status is grounded, superclass or reviewed; a person may have decided that no class fits."""
     confidence: float | None
-    """Probability that the class is correct, from 0 to 1; None if there is no class or the grounder gives none."""
+    """Probability from 0 to 1 that a person would choose the class, or that the object belongs to a superclass which
+    replaces the best candidate; None if there is no class, or the grounder or the person gives none."""
     status: Status
     grounder: str
     """Id of the grounder that chose the class."""
@@ -98,7 +99,8 @@ class Prediction:
     evidence: tuple[str, ...] = ()
     """The evidence groups that the choice rests on."""
     candidates: tuple[Candidate, ...] = ()
-    """The classes considered, best first, including the chosen one."""
+    """The classes considered, best first. The chosen one need not be among them: it may be a superclass of theirs, or a
+    person's choice."""
     review: Review | None = None
     """A person's decision, which sets class, status and confidence above; None if there is none."""
     decided_for: str = ""

@@ -1,7 +1,7 @@
 """TBox: the candidate classes for objects, and their hierarchy."""
 
 import re
-from collections.abc import Iterable, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 from functools import cached_property
 
@@ -140,11 +140,6 @@ class TBox:
         for iri in sorted(self._closures, key=lambda key: len(self._closures[key])):
             depths[iri] = max((depths[parent] + 1 for parent in self.by_iri[iri].parents), default=0)
         return depths
-
-    def lowest_common_ancestors(self, iris: Iterable[ClassIRI]) -> tuple[ClassIRI, ...]:
-        """Return the lowest common superclasses of `iris`, sorted; empty if there is none."""
-        common = frozenset.intersection(*(self._closures[iri] for iri in iris))
-        return tuple(sorted(iri for iri in common if not any(iri in self._closures[other] for other in common - {iri})))
 
     @cached_property
     def _iri_by_equivalent(self) -> Mapping[ClassIRI, ClassIRI]:

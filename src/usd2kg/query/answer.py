@@ -27,6 +27,10 @@ class Answer(RichDisplay):
     sparql: str
     """The query that was run."""
 
+    def as_dicts(self) -> list[dict[str, Any]]:
+        """Return the rows of values by column."""
+        return [dict(zip(self.columns, row, strict=True)) for row in self.values]
+
 
 def with_columns(answer: Answer, added: Mapping[str, str]) -> Answer:
     """Return an answer with additional columns that have the same value in all rows."""

@@ -32,7 +32,7 @@ def check_complexity(sparql: str, *, is_update: bool = False) -> None:
     no closing ones, so that no bracket can be hidden.
 
     Raises:
-        GraphError: it is no Unicode text; brackets are nested too deep; or a query has too many operators and clauses,
+        GraphError: it is not Unicode text; brackets are nested too deep; or a query has too many operators and clauses,
             or triple patterns.
 
     >>> check_complexity("SELECT * " + "{" * 501 + "}" * 501)

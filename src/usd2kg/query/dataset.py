@@ -106,7 +106,7 @@ class Dataset:
         return self.store.query(sparql, prefixes=QUERY_PREFIXES, **self._graphs_of(sparql), **options)
 
     def _graphs_of(self, sparql: str) -> Mapping[str, Any]:
-        # The engine ignores FROM and FROM NAMED where a dataset is passed beside the query.
+        # The engine ignores FROM and FROM NAMED where a dataset is passed with the query.
         if names_dataset(sparql):
             return {}
         return {"use_default_graph_as_union": True} if self.graphs is None else {"default_graph": [*self.graphs]}

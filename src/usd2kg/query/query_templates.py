@@ -5,6 +5,8 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 
 from usd2kg.errors import GraphError
+from usd2kg.query.lookup.object_columns import NEAR_PROPERTIES
+from usd2kg.query.lookup.prepositions import preposition_pattern
 
 __all__ = [
     "ABOVE",
@@ -26,7 +28,7 @@ _ON = "soma:isOntopOf|u2k:on"
 _INSIDE = "soma:isInsideOf|u2k:inside"
 _ATTACHED = "u2k:attachedTo"
 _WITHIN = f"{_INSIDE}|u2k:inRoom"
-_NEAR = "dul:nearTo|knowrob:isNextTo|dul:hasCommonBoundary|u2k:near|u2k:nextTo|u2k:touching"
+_NEAR = "|".join(map(str, NEAR_PROPERTIES))
 _PART_OF = "^soma:hasPhysicalComponent|u2k:partOf"
 _ABOVE = f"(knowrob:isAboveOf|u2k:above)/({_ON})*"
 """The graph states only the nearest anchors, but an object above another on the table is also above the table."""
@@ -143,11 +145,11 @@ WHERE_IS = QueryTemplate(
 ALL_OF = QueryTemplate(_ALL, {"predicate": KIND_OF}, takes_kind=True)
 
 _PHRASES = (
-    (r"(what\s+(is|stands|lies)\s+)?on( top of)?\s+(?P<thing>.+)", ON),
-    (r"(what\s+is\s+)?(in|inside)( of)?\s+(?P<thing>.+)", INSIDE),
-    (r"(what\s+(is|hangs)\s+)?(attached to|fixed to|hanging (on|from)|from)\s+(?P<thing>.+)", ATTACHED),
-    (r"(what\s+is\s+)?(near|next)( to)?\s+(?P<thing>.+)", NEAR),
-    (r"(what\s+is\s+)?above\s+(?P<thing>.+)", ABOVE),
+    (rf"(what\s+(is|stands|lies)\s+)?({preposition_pattern(['on'])})\s+(?P<thing>.+)", ON),
+    (rf"(what\s+is\s+)?({preposition_pattern(['inside'])})\s+(?P<thing>.+)", INSIDE),
+    (rf"(what\s+(is\s+)?)?({preposition_pattern(['attached'])})\s+(?P<thing>.+)", ATTACHED),
+    (rf"(what\s+is\s+)?({preposition_pattern(['near'])})\s+(?P<thing>.+)", NEAR),
+    (rf"(what\s+is\s+)?({preposition_pattern(['above'])})\s+(?P<thing>.+)", ABOVE),
     (r"(what\s+are\s+)?(the\s+)?parts(\s+of|-of)\s+(?P<thing>.+)", PARTS_OF),
     (r"where(\s+is|\s+are|-is|'s)?\s+(?P<thing>.+)", WHERE_IS),
     (r"all(\s+of|-of)?\s+(?P<thing>.+)", ALL_OF),

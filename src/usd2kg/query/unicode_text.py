@@ -1,4 +1,4 @@
-"""check_text: refuse texts that are no Unicode, such as half of an emoji, which no engine can be asked about."""
+"""check_text: refuse texts that are not Unicode, such as half of an emoji, which no engine can be asked about."""
 
 from usd2kg.errors import GraphError
 

@@ -22,7 +22,7 @@ __all__ = [
     "find_next_to",
     "find_touching",
     "height_overlaps",
-    "measure_contacts",
+    "measure_surface_distances",
 ]
 
 Array = NDArray[np.float64]
@@ -62,7 +62,7 @@ def find_nearby_pairs(boxed: BoxedObjects, is_chosen: Mask, rules: RelationRules
     return concatenate_rows(found)
 
 
-def measure_contacts(boxed: BoxedObjects, pairs: NearbyPairs, rules: RelationRules) -> NearbyPairs:
+def measure_surface_distances(boxed: BoxedObjects, pairs: NearbyPairs, rules: RelationRules) -> NearbyPairs:
     """Return the pairs with the distance between their surfaces where their boxes touch or overlap.
 
     A pair is left out if its surfaces are farther apart than the widest limit of the rules: a chair under a table.

@@ -37,7 +37,7 @@ class _ContainmentPairs(NamedTuple):
     sticks_out: Mask
     """Whether the target stands in the container and protrudes at its top."""
     is_surrounded: Mask
-    """Whether the anchor is no container by its class, but surrounds the target."""
+    """Whether the anchor is not a container by its class, but surrounds the target."""
 
 
 def find_inside(boxed: BoxedObjects, classes: ClassMembership, wholes: Indices, rules: RelationRules) -> Containment:

@@ -15,7 +15,7 @@ from usd2kg.relations.adjacency import (
     find_nearby_pairs,
     find_next_to,
     find_touching,
-    measure_contacts,
+    measure_surface_distances,
 )
 from usd2kg.relations.array_records import select_rows
 from usd2kg.relations.attachment import find_attached
@@ -140,7 +140,7 @@ class _Finder:
             walls = self.classes.are_in("walls")[self.boxed.scene_index]
             around = stronger.in_same_frame(find_nearby_pairs(self.boxed, takes_part | walls, self.rules))
             pairs = stronger.drop_related(select_rows(around, takes_part[around.one] & takes_part[around.other]))
-            pairs = measure_contacts(self.boxed, pairs, self.rules)
+            pairs = measure_surface_distances(self.boxed, pairs, self.rules)
             yield from self._symmetric(kinds, pairs, around)
             if sides and self.viewpoint is not None:
                 yield from find_sides(self.boxed, pairs, self.viewpoint, self.rules.side)

@@ -8,13 +8,12 @@ from usd2kg.relations.array_records import select_rows
 from usd2kg.relations.boxed_objects import BoxedObjects
 from usd2kg.relations.model import Links, Viewpoint, margin_below, margin_score
 from usd2kg.relations.thresholds import SideRule
+from usd2kg.shapes.side_angles import SIDES, angles_off_side, turns_from_gaze
 
 __all__ = ["find_sides"]
 
 Array = NDArray[np.float64]
 
-_TURNS = {"behind": 0.0, "left": 90.0, "front": 180.0, "right": -90.0}
-"""Degrees from the gaze direction to the direction from anchor to target, counter-clockwise from above."""
 _APART = 1e-9
 """Metres above which a horizontal offset has a direction."""
 _OPPOSITE = {"behind": "front", "front": "behind", "left": "right", "right": "left"}
@@ -31,11 +30,10 @@ def find_sides(boxed: BoxedObjects, pairs: NearbyPairs, viewpoint: Viewpoint, ru
     view = _directions(boxed, pairs, viewpoint)
     away = boxed.middle[pairs.one, :2] - boxed.middle[pairs.other, :2]
     is_apart = (np.hypot(away[:, 0], away[:, 1]) > _APART) & (np.hypot(view[:, 0], view[:, 1]) > _APART)
-    cross, dot = view[:, 0] * away[:, 1] - view[:, 1] * away[:, 0], (view * away).sum(axis=1)
-    angle = np.degrees(np.arctan2(cross, dot))
+    turns = turns_from_gaze(view, away)
     links = []
-    for kind, turn in _TURNS.items():
-        off = np.abs((angle - turn + 180) % 360 - 180)
+    for kind in SIDES:
+        off = angles_off_side(turns, kind)
         chosen = is_apart & (off <= rule.tolerance_deg)
         one, other = pairs.one[chosen], pairs.other[chosen]
         numbers = {"angle": off[chosen], "distance": pairs.distance[chosen]}

@@ -43,11 +43,11 @@ class _Contacts(NamedTuple):
     ratio: Array
     """Share of the target's feet that is over the surface."""
     area: Array
-    """Square metres of the target's footprint that the surface bears."""
+    """Square metres of the target's footprint that the surface supports."""
     allowed: Array
     """Tolerated gap or penetration in metres."""
     lower: Array
-    """(n, 3): lower corner of what bears the target, a part or the anchor; z is that of its underside."""
+    """(n, 3): lower corner of what supports the target, a part or the anchor; z is that of its underside."""
     upper: Array
     """(n, 3): its upper corner."""
 
@@ -62,7 +62,7 @@ class _Tops(NamedTuple):
 
 
 class _Limits(NamedTuple):
-    """How far each object may be from what bears it."""
+    """How far each object may be from what supports it."""
 
     tolerance: Array
     """Gap in metres."""
@@ -80,10 +80,10 @@ class _Limits(NamedTuple):
 
 
 class Support(NamedTuple):
-    """What bears the objects of a scene."""
+    """What supports the objects of a scene."""
 
     links: list[Links]
-    """`on` with one anchor, and with several that bear the target jointly."""
+    """`on` with one anchor, and with several that support the target jointly."""
     near: _Contacts
     """All surfaces near the feet of an object, closer than what it may hover over."""
 
@@ -91,7 +91,7 @@ class Support(NamedTuple):
 def find_support(
     boxed: BoxedObjects, classes: ClassMembership, is_loose: Mask, container: Indices, rules: RelationRules
 ) -> Support:
-    """Return the `on` links of the objects that touch what bears them.
+    """Return the `on` links of the objects that touch what supports them.
 
     The surface with the highest underside wins: a book on a tray on a table is on the tray. An object inside a
     container only rests on objects in the same container, and not on the container itself.
@@ -111,10 +111,10 @@ def find_support(
     near = _find_contacts(boxed, np.flatnonzero(may_rest), can_support, container, limits)
     contacts = select_rows(near, np.abs(near.gap) <= near.allowed)
     single = _on_single(boxed, contacts, rules.on)
-    bears = ~classes.are_in("not_bearing")[boxed.scene_index]
+    supports = ~classes.are_in("not_bearing")[boxed.scene_index]
     is_left = np.ones(len(boxed), np.bool_)
     is_left[single.target] = False
-    several = _on_several(boxed, select_rows(contacts, is_left[contacts.target] & bears[contacts.anchor]), rules)
+    several = _on_several(boxed, select_rows(contacts, is_left[contacts.target] & supports[contacts.anchor]), rules)
     return Support([single, several], near)
 
 
@@ -188,7 +188,7 @@ def _on_boxes(boxed: BoxedObjects, targets: Indices, tops: _Tops, limits: _Limit
 
 
 def _foot_space(boxed: BoxedObjects, targets: Indices, highest: Array, limits: _Limits) -> tuple[Array, Array]:
-    """Return the corners (n, 3) of the space in which the surface that bears an object is: around its feet.
+    """Return the corners (n, 3) of the space in which the surface that supports an object is: around its feet.
 
     Args:
         boxed: the objects.
@@ -313,8 +313,8 @@ def _on_several(boxed: BoxedObjects, contacts: _Contacts, rules: RelationRules) 
     rule = rules.on_several
     own = (contacts.upper - contacts.lower)[:, :2].prod(axis=1)
     share = np.minimum(ratios(contacts.area, own), 1.0)
-    bears = share >= rule.min_anchor_ratio
-    contacts, share = select_rows(contacts, bears), share[bears]
+    is_enough = share >= rule.min_anchor_ratio
+    contacts, share = select_rows(contacts, is_enough), share[is_enough]
     # Keep the part of each anchor with the largest share.
     anchors = contacts.target * len(boxed) + contacts.anchor
     best = first_of_each_group(anchors, (np.arange(len(anchors)), -rounded(contacts.ratio)))

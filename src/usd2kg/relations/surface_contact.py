@@ -22,12 +22,12 @@ _UP = 2
 
 
 class Standing(NamedTuple):
-    """Pairs of an object that may rest on something, and a surface that may bear it."""
+    """Pairs of an object that may rest on something, and a surface that may support it."""
 
     feet: Sequence[Array]
     """(n, 3): points on the underside of the object."""
     surfaces: Sequence[Surface]
-    """What may bear it."""
+    """What may support it."""
     own_surfaces: Sequence[Surface | None]
     """Of the object; None for a box, whose underside is level."""
     lower: Array
@@ -51,20 +51,20 @@ class SurfaceContacts(NamedTuple):
     ratio: Array
     """Share of the feet over the surface."""
     area: Array
-    """Square metres of the object's footprint that the surface bears."""
+    """Square metres of the object's footprint that the surface supports."""
     allowed: Array
     """Tolerated gap, or penetration for a negative gap, in metres."""
     height: Array
     """Height of the surface below the feet."""
     underside: Array
-    """Height of the underside of what bears the feet; equal to `height` for a sheet, -inf if it is not known."""
+    """Height of the underside of what supports the feet; equal to `height` for a sheet, -inf if it is not known."""
 
 
 def measure_contacts(standing: Standing, rules: RelationRules) -> SurfaceContacts:
     """Return how objects meet the surfaces below them, within the limits of the rules.
 
     The feet are measured down to the surface. If few of them are over it, as those of a lid over the rim of a pot, the
-    faces of the surface are measured up to the object. The object is borne between points of contact as well.
+    faces of the surface are measured up to the object. The object is supported between points of contact as well.
     """
     contacts = _from_feet(standing, rules)
     for pair in np.flatnonzero(~(contacts.ratio > rules.hovering.min_overlap_ratio)).tolist():
@@ -92,20 +92,20 @@ def _from_feet(standing: Standing, rules: RelationRules) -> SurfaceContacts:
     chosen = np.where(has_lowest[pair], is_lowest, is_met)
     middle = _medians(gap, pair, chosen, len(count))
     slack = np.maximum(standing.tolerance, rules.geometry.foot_height)
-    is_borne = is_met & (np.abs(gap - middle[pair]) <= slack[pair])
-    is_borne = _are_between(np.concatenate([np.zeros((0, 3)), *standing.feet]), pair, is_borne, len(count))
-    ratio = np.where(np.isfinite(middle), np.bincount(pair[is_borne], minlength=len(count)) / count, np.nan)
+    is_supported = is_met & (np.abs(gap - middle[pair]) <= slack[pair])
+    is_supported = _are_between(np.concatenate([np.zeros((0, 3)), *standing.feet]), pair, is_supported, len(count))
+    ratio = np.where(np.isfinite(middle), np.bincount(pair[is_supported], minlength=len(count)) / count, np.nan)
     allowed = np.where(middle < 0, _medians(sinks, pair, chosen, len(count)), standing.tolerance)
     height = _medians(tops.height, pair, chosen, len(count))
     thickness = _medians(tops.thickness, pair, chosen, len(count))
     return SurfaceContacts(middle, ratio, ratio * standing.foot_area, allowed, height, height - thickness)
 
 
-def _are_between(feet: Array, pair: Indices, is_borne: Mask, count: int) -> Mask:
-    """Return for each foot whether it is in the rectangle around the borne feet of its pair."""
+def _are_between(feet: Array, pair: Indices, is_supported: Mask, count: int) -> Mask:
+    """Return for each foot whether it is in the rectangle around the supported feet of its pair."""
     low, high = np.full((count, _UP), np.inf), np.full((count, _UP), -np.inf)
-    np.minimum.at(low, pair[is_borne], feet[is_borne, :_UP])
-    np.maximum.at(high, pair[is_borne], feet[is_borne, :_UP])
+    np.minimum.at(low, pair[is_supported], feet[is_supported, :_UP])
+    np.maximum.at(high, pair[is_supported], feet[is_supported, :_UP])
     return np.asarray(((feet[:, :_UP] >= low[pair]) & (feet[:, :_UP] <= high[pair])).all(axis=1))
 
 

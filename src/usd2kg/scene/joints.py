@@ -7,7 +7,7 @@ from typing import Any, NamedTuple
 from pxr import Gf, Usd, UsdGeom
 
 from usd2kg.scene.bounds import to_metres
-from usd2kg.scene.metadata import texts_of
+from usd2kg.scene.metadata import authored_texts
 from usd2kg.scene.model import Diagnostic, Direction, Joint, JointType, StageFrame, Vector
 from usd2kg.scene.settings import JOINTS, MAX_COORDINATE
 from usd2kg.scene.stage import UNREADABLE, error_text, read_targets, read_value
@@ -119,7 +119,7 @@ class _JointReader:
 
     def _axis(self, prim: Any) -> str | None:
         # UsdPhysics: the default axis is X.
-        axis = next(iter(texts_of(prim, "physics:axis", self.time)), "X")
+        axis = next(iter(authored_texts(prim, "physics:axis", self.time)), "X")
         if axis not in _AXES:
             self._note(prim, f"physics:axis is {axis!r}, expected X, Y or Z; it has no axis")
             return None

@@ -8,7 +8,7 @@
 import re
 from typing import Any, NamedTuple
 
-from usd2kg.scene.metadata import clean_text, texts_of
+from usd2kg.scene.metadata import authored_texts, clean_text
 from usd2kg.scene.model import Encoding, Strength
 from usd2kg.scene.stage import read_targets
 from usd2kg.words import words_of
@@ -145,7 +145,7 @@ def find_labels(prim: Any, names: list[str], time: Any) -> list[LabelProperty]:
 
 def clean_values(prim: Any, name: str, time: Any) -> tuple[str, ...]:
     """Return the texts of an attribute with white space and unprintable characters removed."""
-    return tuple(map(clean_text, texts_of(prim, name, time)))
+    return tuple(map(clean_text, authored_texts(prim, name, time)))
 
 
 def tag_targets(prim: Any, name: str) -> list[Any]:

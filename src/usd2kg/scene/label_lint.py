@@ -150,9 +150,9 @@ def _lint_types(prim: Any, names: Sequence[str]) -> Iterator[_Problem]:
         found = property_type(prim, name)
         if name.startswith(USD_PREFIX) and found != USD_LABEL_TYPE:
             statement = (
-                f"{name} is {f'of type {found}' if found else 'a relationship'}, in which OpenUSD finds no labels"
+                f"{name} is {f'of type {found}' if found else 'a relationship'}; OpenUSD reads no labels from it"
             )
-            yield _Problem("label-type", name, statement, USD_LABEL_TYPE, "author it anew with that type")
+            yield _Problem("label-type", name, statement, USD_LABEL_TYPE, "author it again with that type")
 
 
 def _lint_values(entry: LabelProperty, taxonomies: set[str]) -> Iterator[_Problem]:

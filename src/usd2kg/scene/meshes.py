@@ -197,7 +197,7 @@ class MeshReader:
         matrix = self.matrix(prim, space)
         if mesh is None or not len(mesh.triangles):
             return
-        # A factor of 1e30 and more has points beyond all limits, and a determinant that is no number.
+        # A factor of 1e30 and more has points beyond all limits, and a determinant that is not a number.
         if not (np.abs(matrix) < MAX_COORDINATE).all():
             self.note(prim, "its transform is not finite", "transform")
             return

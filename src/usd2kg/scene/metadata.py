@@ -20,11 +20,11 @@ from usd2kg.words import split_identifier, words_of
 __all__ = [
     "BASE_COLOR_INPUTS",
     "MaterialReader",
+    "authored_texts",
     "clean_text",
     "source_id",
     "text_attributes",
     "text_names",
-    "texts_of",
     "variant_selections",
     "vector_of",
 ]
@@ -89,7 +89,7 @@ def text_attributes(prim: Any, time: Any = None) -> tuple[tuple[str, str], ...]:
 
 def _texts(prim: Any, time: Any) -> Iterator[tuple[str, str]]:
     for name in text_names(prim, prim.GetAuthoredPropertyNames()):
-        yield name, ", ".join(texts_of(prim, name, time))
+        yield name, ", ".join(authored_texts(prim, name, time))
     if prim.HasAuthoredCustomData():
         # GetCustomData includes the documentation of the schema.
         data = {key: value for key, value in prim.GetCustomData().items() if prim.HasAuthoredCustomDataKey(key)}
@@ -119,7 +119,7 @@ def _flatten(prefix: str, values: Mapping[str, Any]) -> Iterator[tuple[str, str]
             yield f"{prefix}:{key}", ", ".join(_as_texts(value))
 
 
-def texts_of(prim: Any, attribute_name: str, time: Any) -> tuple[str, ...]:
+def authored_texts(prim: Any, attribute_name: str, time: Any) -> tuple[str, ...]:
     """Return the texts of a string or token attribute or array, as authored.
 
     Empty if there is no such attribute, no value, another type, or text that is not UTF-8. Without `time`, the default

@@ -294,7 +294,7 @@ class Scene(RichDisplay):
     joints: tuple[Joint, ...] = ()
     """In traversal order."""
     origin: Origin | None = None
-    """What the stage was converted from; None if it is no conversion."""
+    """What the stage was converted from; None if it is not a conversion."""
     surfaces: Mapping[str, Surface] = field(default_factory=dict, compare=False, repr=False)
     """Prim path → triangles, for objects near others whose box does not say it all; not for axis-aligned boxes."""
 

@@ -60,7 +60,7 @@ class OpenedStage:
     unresolved: frozenset[str]
     """Paths of prims with a missing reference or payload at or below them."""
     origin: Origin | None
-    """What the stage was converted from; None if it is no conversion."""
+    """What the stage was converted from; None if it is not a conversion."""
 
     @cached_property
     def content_hash(self) -> str:

@@ -10,13 +10,12 @@ from usd2kg.shapes.bounding_boxes import face_normals, minimum_box, minimum_rect
 from usd2kg.shapes.enclosed_volume import enclosed_volume
 from usd2kg.shapes.hull import convex_hull, hull_area
 from usd2kg.shapes.settings import MESH
-from usd2kg.shapes.triangle_mesh import TriangleMesh, area_vectors, make_triangle_mesh
+from usd2kg.shapes.triangle_mesh import TriangleMesh, area_vectors
 from usd2kg.shapes.vessels import NO_VESSEL, measure_vessel
 
-__all__ = ["ShapeDescriptors", "describe_mesh", "describe_triangles"]
+__all__ = ["ShapeDescriptors", "describe_mesh"]
 
 Array = NDArray[np.float64]
-Indices = NDArray[np.int64]
 
 
 @dataclass(frozen=True, slots=True)
@@ -78,24 +77,12 @@ class ShapeDescriptors:
     """
 
 
-def describe_triangles(points: Array, triangles: Indices) -> ShapeDescriptors | None:
-    """Return the shape of triangles; None if no triangle has finite corners, or all corners coincide.
-
-    Args:
-        points: (n, 3), metres, z-up.
-        triangles: (m, 3), indices into `points`.
+def describe_mesh(mesh: TriangleMesh) -> ShapeDescriptors:
+    """Return the shape of a mesh.
 
     Raises:
         SceneError: scipy is not installed.
     """
-    mesh = make_triangle_mesh(
-        np.asarray(points, np.float64).reshape(-1, 3), np.asarray(triangles, np.int64).reshape(-1, 3)
-    )
-    return describe_mesh(mesh) if mesh is not None else None
-
-
-def describe_mesh(mesh: TriangleMesh) -> ShapeDescriptors:
-    """Return the shape of a mesh; see `describe_triangles`."""
     principal = np.linalg.eigh(np.cov(mesh.points.T, ddof=0))[1].T
     planes = np.concatenate([[[0.0, 0.0, 1.0]], principal])
     hull = convex_hull(mesh.points, max(MESH.weld_distance * mesh.diagonal, mesh.noise))

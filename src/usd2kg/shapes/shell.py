@@ -52,7 +52,7 @@ def shell_boxes(surface: Surface) -> list[Corners]:
 
 
 def _sample_cells(surface: Surface, cell: float) -> _Cells:
-    # Two samples per cell leave no hole where a triangle crosses it askew.
+    # Two samples per cell leave no hole where a triangle crosses it obliquely.
     points = np.concatenate(list(_samples(surface.corners, cell / 2)))
     place = np.floor((points - points.min(axis=0)) / cell + _SHIFT).astype(np.int64)
     shape = tuple((place.max(axis=0) + 1).tolist())

@@ -28,13 +28,13 @@ from usd2kg.studio.object_review import ObjectReview
 from usd2kg.studio.other_version import OtherVersion
 from usd2kg.studio.outputs import OutputFiles
 from usd2kg.studio.page_indices import PageIndices
-from usd2kg.studio.pictures import Pictures
 from usd2kg.studio.questions import Questions
 from usd2kg.studio.request_body import BadRequestError, field, object_indices, read_body
 from usd2kg.studio.review_queue import AUDIT_ORDER, QUEUE_ORDERS, estimate_seconds, make_audit_queue, make_queue
 from usd2kg.studio.reviewer_agreement import find_agreement
 from usd2kg.studio.scene_json import scene_json, state_json
 from usd2kg.studio.session import StudioSession
+from usd2kg.studio.stage_media import Pictures
 
 __all__ = ["make_app"]
 
@@ -263,7 +263,7 @@ class _Api:
     async def _ground_again(self, request: Request) -> Response:
         body = await read_body(request)
         changes = await asyncio.to_thread(self._session.ground_again)
-        # Suggestions are no events of the journal: the other pages load all states.
+        # Suggestions are not events of the journal: the other pages load all states.
         self._events.publish("suggestions", {"reviewer": _reviewer(body), "page": field(body, "page", str, "")})
         self._outputs.notify()
         found = [

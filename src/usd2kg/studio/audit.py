@@ -12,7 +12,7 @@ from typing import Any
 from usd2kg.evaluation import Score
 from usd2kg.evaluation.metrics.calibration import calibration_error, reliability_bins
 from usd2kg.evaluation.metrics.intervals import wilson_interval
-from usd2kg.grounding.lexical.alignment.default_root import NO_CLASS_IRI
+from usd2kg.grounding.lexical.alignment.artificial_root import NO_CLASS_IRI
 from usd2kg.studio.object_review import ObjectReview
 from usd2kg.studio.settings import AUDIT
 from usd2kg.studio.verdicts import Event, Suggestion, VerdictKind
@@ -33,7 +33,7 @@ class Audit:
     unsure: int
     """Number of objects that reviewers could not tell."""
     scores: tuple[Score, ...]
-    """Suggestion and valid verdict of each object whose class is settled."""
+    """Suggestion and current verdict of each object whose class is settled."""
 
 
 def make_audit(states: Iterable[ObjectReview], standing: Iterable[Event]) -> Audit:
@@ -45,7 +45,7 @@ def make_audit(states: Iterable[ObjectReview], standing: Iterable[Event]) -> Aud
         states: the states of all objects.
         standing: the decisions that are not undone.
     """
-    # What a person decided before the project is no suggestion of the grounder.
+    # What a person decided before the project is not a suggestion of the grounder.
     drawn = sorted((state for state in states if state.prediction.review is None), key=_draw)
     marked = {change.prim_path: change for event in standing if event.is_audit for change in event.changes}
     is_done = [state.prim_path in marked and state.verdict.kind is not VerdictKind.OPEN for state in drawn]
@@ -68,7 +68,10 @@ def _draw(state: ObjectReview) -> bytes:
 
 
 def _score(state: ObjectReview, suggested: Suggestion | None) -> Score:
-    """Return how the valid verdict and the suggestion at the time of the audit compare; no answer is wrong."""
+    """Return the comparison of the current verdict with the suggestion at the time of the audit.
+
+    Where the grounder gave no answer, the comparison counts as wrong.
+    """
     return Score(
         id=state.prim_path,
         name=state.prim_path,

@@ -4,8 +4,8 @@ from collections.abc import Iterable, Mapping
 from pathlib import Path
 from typing import NamedTuple
 
-from usd2kg.diff.graph_states import parse_numbers
 from usd2kg.errors import GroundingError
+from usd2kg.graph.literal_numbers import parse_numbers
 from usd2kg.grounding import Prediction, Status, read_grounding
 from usd2kg.grounding.sssom_decisions import NO_TERM, VERDICT, is_sssom
 from usd2kg.grounding.sssom_file import SssomFile, SssomRow, read_sssom_file
@@ -62,7 +62,7 @@ def read_claims(path: Path, tbox: TBox) -> dict[str, ClassClaim]:
 
 
 def _settled(rows: Iterable[SssomRow]) -> list[SssomRow]:
-    """Return the valid rows: of a journal the last one of each prim, if it settles the class."""
+    """Return the current rows: of a journal the last one of each prim, if it settles the class."""
     last = {row.cells["prim_path"]: row for row in rows if not row.cells.get("predicate_modifier")}
     return [row for row in last.values() if row.cells.get(VERDICT) not in _UNSETTLED]
 

@@ -2,13 +2,13 @@
 
 import threading
 from collections import Counter
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterator, Mapping
 from typing import Any
 
-from usd2kg.diff import Change, Changes, Link, ObjectState, compare_objects, describe_match
+from usd2kg.diff import Change, Changes, ObjectState, compare_objects, describe_match
 from usd2kg.studio.class_claims import ClassClaim, class_name
 from usd2kg.studio.object_review import ObjectReview
-from usd2kg.studio.other_version import OtherVersion, VersionSource, describe_objects
+from usd2kg.studio.other_version import OtherVersion, VersionSource, compared_states
 from usd2kg.studio.page_indices import NONE, PageIndices
 from usd2kg.studio.session import StudioSession
 
@@ -42,7 +42,7 @@ class Comparison:
 
     def _compare(self, version: int) -> dict[str, Any]:
         claims = {state.prim_path: self._claim(state) for state in self._session.states()}
-        new = describe_objects(self._session.scene, claims, self._session.relations)
+        new = compared_states(self._session.scene, claims, self._session.relations)
         old, new, notes = self._before(new)
         changes = compare_objects(old, new, is_grounded=True)
         found = [*self._changed(changes, claims), *self._unmatched(changes, claims)]
@@ -76,7 +76,7 @@ class Comparison:
             notes.append(f"Not compared, since the mapping has no row for them: {missing}")
         if others := len(claims) - len(shared):
             notes.append(f"Rows of the mapping about prims that are not objects of this scene: {others}")
-        before = describe_objects(self._session.scene, claims, self._session.relations)
+        before = compared_states(self._session.scene, claims, self._session.relations)
         return tuple(state for state in before if state.prim_path in claims), shared, notes
 
     def _changed(self, changes: Changes, claims: Mapping[str, ClassClaim]) -> Iterator[dict[str, Any]]:
@@ -90,8 +90,8 @@ class Comparison:
                 "turned_degrees": round(change.turned_degrees, 2),
                 "sizes": None if change.resized is None else change.resized,
                 "masses": change.mass,
-                "gained": _links(change.gained),
-                "lost": _links(change.lost),
+                "gained": [link._asdict() for link in change.gained],
+                "lost": [link._asdict() for link in change.lost],
                 "reason": describe_match(change.match) if change.is_renamed else "",
             }
 
@@ -153,10 +153,6 @@ def _kinds(change: Change) -> Iterator[str]:
         "relations": change.gained or change.lost,
     }
     return (kind for kind, found in holds.items() if found)
-
-
-def _links(links: Iterable[Link]) -> list[dict[str, str]]:
-    return [{"kind": link.kind, "anchor": link.anchor} for link in links]
 
 
 def _box(state: ObjectState) -> list[float] | None:

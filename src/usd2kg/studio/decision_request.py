@@ -60,7 +60,7 @@ def _verdicts(
     if action == "choose":
         index = field(body, "class", int)
         if not 0 <= index < len(session.tbox.classes):
-            raise BadRequestError(f"field class: {index} is no class")
+            raise BadRequestError(f"field class: {index} is not a class")
         iri = session.tbox.classes[index].iri
         return dict.fromkeys(paths, Verdict(VerdictKind.CLASS, iri, comment=comment, proposal=proposal))
     if action != "confirm":

@@ -53,6 +53,6 @@ def second_answer(prediction: Prediction, second: Grounding | None, indices: Pag
 
 
 def _disagree(prediction: Prediction, other: Prediction) -> bool:
-    """Return whether two grounders answer differently; a failed call is no answer."""
+    """Return whether two grounders answer differently; a failed call is not an answer."""
     first, second = suggestion_of(prediction), suggestion_of(other)
     return first is not None and second is not None and first.class_iri != second.class_iri

@@ -6,7 +6,7 @@ from typing import Any
 import pyoxigraph as ox
 
 from usd2kg.diff import ObjectState
-from usd2kg.diff.graph_states import parse_numbers
+from usd2kg.graph.literal_numbers import parse_numbers
 from usd2kg.graph.vocabulary import PROV, RDF, SKOS, SSSOM, U2K
 from usd2kg.grounding import Candidate, Concept, Grounding, Prediction, Review, Status
 from usd2kg.scene import Scene

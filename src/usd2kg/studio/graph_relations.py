@@ -6,7 +6,7 @@ from typing import Any
 
 import pyoxigraph as ox
 
-from usd2kg.diff.graph_states import parse_numbers
+from usd2kg.graph.literal_numbers import parse_numbers
 from usd2kg.graph.relation_patterns import KIND_OF_INVERSE, KIND_OF_PROPERTY
 from usd2kg.graph.vocabulary import RDF, RDFS, SSSOM, U2K
 from usd2kg.relations import SYMMETRIC_KINDS, DerivedRoom, Relation

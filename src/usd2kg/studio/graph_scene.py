@@ -8,10 +8,11 @@ from typing import Any, get_args
 import pyoxigraph as ox
 
 from usd2kg.diff import GraphStyle, ObjectState, detect_graph_style, objects_of_graph
-from usd2kg.diff.graph_states import as_vector, parse_numbers
+from usd2kg.diff.graph_states import as_vector
 from usd2kg.errors import GraphError
 from usd2kg.garbage import paused_collection
 from usd2kg.graph.iris import individual_iri
+from usd2kg.graph.literal_numbers import parse_numbers
 from usd2kg.graph.rdf_document import read_statements
 from usd2kg.graph.vocabulary import OWL, RDF, RDFS, U2K, USD
 from usd2kg.grounding import Grounding
@@ -104,7 +105,7 @@ def _read_scene(path: Path, index: GraphIndex, stage: Any, stated: Sequence[Obje
             is_authored=True,
         ),
         time=time[0] if time else None,
-        # A graph does not state how many prims are no objects.
+        # A graph does not state how many prims are not objects.
         prim_count=len(stated),
         objects=tuple(_read_object(each, index, _parent_in(known, each.prim_path)) for each in stated),
         left_out={},

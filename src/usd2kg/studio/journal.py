@@ -1,8 +1,8 @@
 """Journal: the decisions of reviewers in an SSSOM/TSV file that only grows.
 
 Each row is one change of one object. The file is a valid input of `--decisions`: of several rows about a prim, the last
-is valid. Rows of one event are written at once and are on disk before `append` returns. A last row without line break,
-which a crash can leave, is dropped.
+is current. Rows of one event are written at once and are on disk before `append` returns. A last row without line
+break, which a crash can leave, is dropped.
 """
 
 import csv
@@ -13,6 +13,7 @@ from contextlib import suppress
 from dataclasses import replace
 from pathlib import Path
 
+from usd2kg.append_only import AppendOnlyFile, whole_lines
 from usd2kg.errors import GroundingError, OutputError, one_line
 from usd2kg.graph.document_prefixes import document_prefixes
 from usd2kg.graph.iris import individual_iri
@@ -78,11 +79,11 @@ class Journal:
             if not path.exists() or not path.stat().st_size:
                 path.write_bytes(_header(base, tbox).encode())
                 _sync_folder(path.parent)
-            file = read_sssom_file(path, _drop_torn_row(path).decode(), _REQUIRED, _EXPECTED)
+            rows = whole_lines(path.read_bytes())
+            file = read_sssom_file(path, rows.decode(), _REQUIRED, _EXPECTED)
             self._prefixes = file.prefixes
             self.events = _read_events(file, path)
-            # Unbuffered, so that a failed write leaves nothing to be written later.
-            self._file = path.open("ab", buffering=0)
+            self._file = AppendOnlyFile(path, len(rows))
         except OSError as error:
             raise OutputError(f"{path}: cannot be opened ({error.strerror}); check its permissions") from error
         except UnicodeDecodeError as error:
@@ -93,7 +94,7 @@ class Journal:
 
         Args:
             event: the event; its number follows that of the last one.
-            before: prim path → verdict that was valid before.
+            before: prim path → verdict that was current before.
 
         Raises:
             OutputError: the disk is full or the file is gone; nothing was recorded.
@@ -101,12 +102,9 @@ class Journal:
         text = io.StringIO(newline="")
         writer = csv.DictWriter(text, _COLUMNS, delimiter="\t", lineterminator="\n")
         writer.writerows(self._row(event, change, before[change.prim_path]) for change in event.changes)
-        size = os.fstat(self._file.fileno()).st_size
         try:
-            _write_all(self._file, text.getvalue().encode())
-            os.fsync(self._file.fileno())
+            self._file.append(text.getvalue().encode())
         except OSError as error:
-            self._file.truncate(size)
             raise OutputError(f"{self.path}: the decision is not saved ({error.strerror}); free some space") from error
         self.events.append(event)
 
@@ -179,15 +177,6 @@ def _header(base: str, tbox: TBox) -> str:
     return format_sssom_file(header, curies, _EXTENSIONS, _COLUMNS, ())
 
 
-def _drop_torn_row(path: Path) -> bytes:
-    """Return the content of a journal; a last row without line break is removed from the file."""
-    data = path.read_bytes()
-    whole = data[: data.rfind(b"\n") + 1]
-    if len(whole) < len(data):
-        os.truncate(path, len(whole))
-    return whole
-
-
 def _read_events(file: SssomFile, path: Path) -> list[Event]:
     """Return the events; rows with the same number are one event.
 
@@ -224,13 +213,6 @@ def _read_suggestion(cells: Mapping[str, str], expand: Callable[[str], str]) -> 
     """Return what was suggested when the decision of a row was made; None without an answer."""
     iri, confidence = expand(cells["suggested"]), cells["suggested_confidence"]
     return Suggestion(None if iri == NO_TERM else iri, float(confidence) if confidence else None) if iri else None
-
-
-def _write_all(file: io.FileIO, data: bytes) -> None:
-    """Write all bytes to an unbuffered file, whose `write` may write fewer."""
-    rest = memoryview(data)
-    while rest:
-        rest = rest[file.write(rest) :]
 
 
 def _sync_folder(folder: Path) -> None:

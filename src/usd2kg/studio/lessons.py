@@ -10,7 +10,7 @@ from dataclasses import dataclass, replace
 
 from usd2kg.grounding import Decision, Grounding
 from usd2kg.grounding.lexical.alignment.alignment_rows import AlignmentRow, RowKind, format_rows
-from usd2kg.grounding.lexical.alignment.default_root import NO_CLASS_IRI
+from usd2kg.grounding.lexical.alignment.artificial_root import NO_CLASS_IRI
 from usd2kg.grounding.lexical.alignment.terms import TermKind
 from usd2kg.ontology import ClassIRI, TBox
 from usd2kg.scene import Scene
@@ -40,7 +40,7 @@ class Lesson:
 def find_lessons(
     suggestions: Grounding, decisions: Mapping[str, Decision], scene: Scene, standing: Sequence[Event] = ()
 ) -> list[Lesson]:
-    """Return what the decisions teach, sorted by label; nothing about what they contradict each other.
+    """Return what the decisions teach, sorted by label; nothing about concepts on which they contradict each other.
 
     Args:
         suggestions: the grounding that was reviewed.
@@ -83,7 +83,7 @@ def _direct(event: Event, suggestions: Grounding) -> Lesson:
 def format_lessons(lessons: Iterable[Lesson], tbox: TBox) -> str:
     """Return the lessons as SSSOM/TSV, an input of `--alignment` that changes the alignment that is built."""
     rows: dict[tuple[RowKind, str], AlignmentRow] = {}
-    # Of two rows about one word, that of a decision about a concept is valid.
+    # Of two rows about one word, that of a decision about a concept counts.
     for lesson in sorted(lessons, key=lambda lesson: not lesson.is_direct):
         for row in _rows(lesson):
             rows.setdefault((row.kind, row.subject), row)

@@ -43,12 +43,12 @@ _SUGGESTED = {
 
 @dataclass(frozen=True, slots=True)
 class ObjectReview:
-    """The valid class of an object beside what the grounder suggested."""
+    """The current class of an object, and what the grounder suggested."""
 
     prim_path: str
     status: ReviewStatus
     class_iri: ClassIRI | None
-    """The valid class; None if there is none."""
+    """The current class; None if there is none."""
     prediction: Prediction
     """What the grounder suggested."""
     verdict: Verdict

@@ -16,7 +16,7 @@ from usd2kg.studio.graph_scene import read_graph_scene
 from usd2kg.studio.open_session import is_graph
 from usd2kg.studio.project import ProjectSources
 
-__all__ = ["OtherVersion", "VersionSource", "describe_objects", "read_other_version"]
+__all__ = ["OtherVersion", "VersionSource", "compared_states", "read_other_version"]
 
 
 class VersionSource(StrEnum):
@@ -63,10 +63,10 @@ def read_other_version(path: Path, sources: ProjectSources, tbox: TBox) -> Other
     else:
         return OtherVersion(path, VersionSource.MAPPING, read_claims(path, tbox))
     claims = {p.prim_path: claim_of(p, tbox) for p in grounding.predictions}
-    return OtherVersion(path, source, claims, describe_objects(scene, claims, relations))
+    return OtherVersion(path, source, claims, compared_states(scene, claims, relations))
 
 
-def describe_objects(
+def compared_states(
     scene: Scene, claims: Mapping[str, ClassClaim], relations: Iterable[Relation]
 ) -> tuple[ObjectState, ...]:
     """Return the objects of a scene with classes and relations, to be compared."""

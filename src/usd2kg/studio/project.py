@@ -67,7 +67,7 @@ def open_project(folder: Path, sources: ProjectSources | None = None) -> Iterato
         sources: what to review; None to take those of the project.
 
     Raises:
-        GroundingError: the folder is no project, or one about another scene or ontology.
+        GroundingError: the folder is not a project, or one about another scene or ontology.
         OutputError: it cannot be made.
         StoreError: another process has the project open.
     """

@@ -42,7 +42,7 @@ async def read_body(request: Request) -> dict[str, Any]:
     except (ValueError, RecursionError) as error:
         raise BadRequestError(f"the body is not JSON ({error})") from error
     if not isinstance(body, dict):
-        raise BadRequestError("the body is no JSON object")
+        raise BadRequestError("the body is not a JSON object")
     return body
 
 
@@ -64,12 +64,12 @@ def object_indices(body: dict[str, Any], count: int) -> list[int]:
     """Return the field `objects`: indices of objects.
 
     Raises:
-        BadRequestError: an entry is no index of an object, or there are none or too many.
+        BadRequestError: an entry is not an index of an object, or there are none or too many.
     """
     indices = field(body, "objects", list)
     if not 1 <= len(indices) <= SERVER.max_objects_per_decision:
         raise BadRequestError(f"field objects: has {len(indices)} entries, expected at least one")
     for index in indices:
         if not isinstance(index, int) or isinstance(index, bool) or not 0 <= index < count:
-            raise BadRequestError(f"field objects: {str(index)[:20]!r} is no object; expected 0 to {count - 1}")
+            raise BadRequestError(f"field objects: {str(index)[:20]!r} is not an object; expected 0 to {count - 1}")
     return indices

@@ -78,7 +78,7 @@ def group_open(
     Args:
         states: the states of all objects, in scene order.
         objects: prim path → object.
-        apart: what objects of one group have in common beside the suggestion and the concept or words.
+        apart: what objects of one group have in common apart from the suggestion and the concept or words.
     """
     found: dict[tuple[object, ...], list[Prediction]] = {}
     for state in states:

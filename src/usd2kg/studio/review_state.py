@@ -39,7 +39,7 @@ class ReviewState:
         return max(self._events, default=0)
 
     def verdict(self, prim_path: str) -> Verdict:
-        """Return the valid verdict on an object."""
+        """Return the current verdict on an object."""
         return self._verdicts.get(prim_path, OPEN)
 
     def history(self, prim_path: str) -> list[tuple[Event, Verdict]]:
@@ -81,7 +81,7 @@ class ReviewState:
         concept: str = "",
         is_audit: bool = False,
     ) -> Event:
-        """Return the event that sets the verdicts on several objects; `apply` makes it valid.
+        """Return the event that sets the verdicts on several objects; `apply` makes it current.
 
         Args:
             verdicts: prim path → kind, class and comment.
@@ -151,11 +151,11 @@ class ReviewState:
     # Applying events.
 
     def before(self, event: Event) -> dict[str, Verdict]:
-        """Return prim path → verdict that is valid before an event is applied."""
+        """Return prim path → verdict that is current before an event is applied."""
         return {change.prim_path: self.verdict(change.prim_path) for change in event.changes}
 
     def apply(self, event: Event) -> None:
-        """Make an event valid."""
+        """Make the verdicts of an event current."""
         self._before[event.number] = self.before(event)
         self._events[event.number] = event
         for change in event.changes:

@@ -1,4 +1,4 @@
-"""ReviewerAgreement of reviewers who decided about the same objects: Cohen's kappa."""
+"""Agreement of reviewers who decided about the same objects: Cohen's kappa."""
 
 from collections import Counter
 from collections.abc import Mapping

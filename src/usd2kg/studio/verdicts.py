@@ -23,7 +23,7 @@ class VerdictKind(StrEnum):
 
 @dataclass(frozen=True, slots=True)
 class Verdict:
-    """The valid judgement on one object."""
+    """The current judgement on one object."""
 
     kind: VerdictKind
     class_iri: ClassIRI | None = None

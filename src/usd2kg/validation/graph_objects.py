@@ -1,15 +1,15 @@
 """GraphObject: the objects of a graph in either profile as records."""
 
-import math
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from typing import Any
 
 import pyoxigraph as ox
 
+from usd2kg.graph.literal_numbers import parse_numbers
 from usd2kg.graph.vocabulary import DUL, OWL, RDF, RDFS, SOMA, SSSOM, U2K, USD
 
-__all__ = ["GraphObject", "find_owner", "numbers_in", "profile_of", "read_graph_objects", "values_of"]
+__all__ = ["GraphObject", "find_owner", "profile_of", "read_graph_objects", "values_of"]
 
 Vector = tuple[float, float, float]
 _GENERIC_CLASSES = {OWL.NamedIndividual, USD.Prim, U2K.Object}
@@ -82,7 +82,7 @@ def read_graph_objects(store: ox.Store) -> list[GraphObject]:
     paths = {
         node: [path for path in own if isinstance(path, ox.Literal)]
         for node, own in values_of(store, U2K.primPath).items()
-        # A blank node is no object that a finding could name.
+        # A blank node is not an object that a finding could name.
         if isinstance(node, ox.NamedNode) and node not in rooms
     }
     objects = [reader.read(node, own[0]) for node, own in paths.items() if own]
@@ -151,11 +151,11 @@ class _Reader:
         return next((str(value.value) for value in values), "")
 
     def _number(self, node: Any, *names: ox.NamedNode) -> float | None:
-        numbers = numbers_in(" ".join(self._text(node, name) for name in names))
+        numbers = parse_numbers(" ".join(self._text(node, name) for name in names))
         return numbers[0] if len(numbers) == 1 else None
 
     def _vector(self, node: Any, name: ox.NamedNode) -> tuple[float, ...] | None:
-        return numbers_in(self._text(node, name)) or None
+        return parse_numbers(self._text(node, name)) or None
 
     def _iris(self, node: Any, *names: ox.NamedNode) -> tuple[str, ...]:
         return tuple(v.value for name in names for v in self._values(node, name) if isinstance(v, ox.NamedNode))
@@ -171,15 +171,6 @@ def _find_holders(store: ox.Store) -> dict[Any, set[str]]:
             if isinstance(holder, ox.NamedNode):
                 found.setdefault(held, set()).add(holder.value)
     return found
-
-
-def numbers_in(text: str) -> tuple[float, ...]:
-    """Return the numbers in a text; empty if any of them is not finite."""
-    try:
-        numbers = tuple(float(word) for word in text.split())
-    except ValueError:
-        return ()
-    return numbers if all(map(math.isfinite, numbers)) else ()
 
 
 def _triple(values: Any) -> Vector | None:
@@ -198,7 +189,7 @@ def _confidences(store: ox.Store) -> Iterator[tuple[Any, float]]:
         if isinstance(quad.object, ox.Triple) and quad.object.predicate == RDF.type:
             sources[quad.subject] = quad.object.subject
     for quad in store.quads_for_pattern(None, SSSOM.confidence, None):
-        numbers = numbers_in(str(getattr(quad.object, "value", "")))
+        numbers = parse_numbers(str(getattr(quad.object, "value", "")))
         if quad.subject in sources and len(numbers) == 1:
             yield sources[quad.subject], numbers[0]
 

@@ -7,6 +7,7 @@ from typing import Any
 import pyoxigraph as ox
 
 from usd2kg.errors import GraphError
+from usd2kg.graph.literal_numbers import parse_numbers
 from usd2kg.graph.vocabulary import OWL, RDFS, U2K
 from usd2kg.ontology import Closure, compact_iri
 from usd2kg.query.graph_store import GraphStore
@@ -18,7 +19,6 @@ from usd2kg.validation.finding import Finding, Severity, sort_findings
 from usd2kg.validation.graph_objects import (
     GraphObject,
     find_owner,
-    numbers_in,
     profile_of,
     read_graph_objects,
     values_of,
@@ -135,7 +135,7 @@ class _Run:
         """Return the objects with what the plausibility checks need."""
         calibrated = values_of(self._store, U2K.isCalibrated).values()
         units = [v.value for values in values_of(self._store, U2K.metresPerUnit).values() for v in values]
-        unit = numbers_in(units[0]) if len(units) == 1 else ()
+        unit = parse_numbers(units[0]) if len(units) == 1 else ()
         return CheckedScene(
             self.objects,
             ObjectClasses(self._store, self._axioms, self.objects),

@@ -8,7 +8,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from tests.grounding.records import make_object, make_scene, words_written
+from tests.grounding.records import make_object, make_scene, neighbours_of, words_written
 from usd2kg.grounding.context import Nearness, Neighbour, Neighbourhood, neighbours
 from usd2kg.grounding.context.neighbours import neighbourhoods, size_distance
 from usd2kg.scene import Box, Scene
@@ -33,7 +33,7 @@ def company_of(scene: Scene, path: str) -> Neighbourhood:
 
 def seen(scene: Scene, path: str) -> dict[str, Nearness]:
     """Return path → nearness of the companions of an object."""
-    found = company_of(scene, path).neighbours()
+    found = neighbours_of(company_of(scene, path))
     listed = {path_of(companion): companion.nearness for companion in found}
     assert len(listed) == len(found)
     return listed
@@ -103,7 +103,7 @@ def test_objects_below_other_parents_are_not_between_siblings():
 
 def test_companions_have_their_parents_and_no_distance_without_sizes():
     scene = things("/World/Kitchen/cup", "/World/Kitchen/plate")
-    (plate,) = company_of(scene, "/World/Kitchen/cup").neighbours()
+    (plate,) = neighbours_of(company_of(scene, "/World/Kitchen/cup"))
     assert plate == Neighbour("plate", ("World", "Kitchen"), NEXT, None, None)
 
 
@@ -112,13 +112,13 @@ def test_companions_have_their_oriented_size():
         make_object("/W/cup", box=Box((0, 0, 0), (0.1, 0.1, 0.1))),
         make_object("/W/oven", box=Box((0, 0, 0), (0.9, 0.6, 0.6)), oriented_size=(0.6, 0.6, 0.6)),
     )
-    (oven,) = company_of(scene, "/W/cup").neighbours()
+    (oven,) = neighbours_of(company_of(scene, "/W/cup"))
     assert oven.size == (0.6, 0.6, 0.6)
 
 
 def test_objects_at_the_root_are_siblings():
     assert seen(things("/a", "/b"), "/a") == {"/b": NEXT}
-    assert company_of(things("/a", "/b"), "/a").neighbours()[0].parents == ()
+    assert neighbours_of(company_of(things("/a", "/b"), "/a"))[0].parents == ()
 
 
 def test_objects_elsewhere_are_twins_or_alike_by_size():
@@ -130,7 +130,7 @@ def test_objects_elsewhere_are_twins_or_alike_by_size():
         ("/B/sizeless",),
     )
     assert seen(scene, "/A/target") == {"/B/turned": TWIN, "/B/nearly": TWIN, "/B/about": ALIKE}
-    distances = {c.name: c.distance for c in company_of(scene, "/A/target").neighbours()}
+    distances = {c.name: c.distance for c in neighbours_of(company_of(scene, "/A/target"))}
     expected = {"turned": 0, "nearly": math.log(1.009), "about": math.log(1.011)}
     assert distances == pytest.approx(expected, abs=1e-12)
 
@@ -138,7 +138,7 @@ def test_objects_elsewhere_are_twins_or_alike_by_size():
 def test_a_twin_next_to_the_target_is_listed_once_as_next():
     scene = things(("/A/target", (1, 2, 3)), ("/A/copy", (3, 2, 1)), ("/B/copy", (2, 1, 3)))
     assert seen(scene, "/A/target") == {"/A/copy": NEXT, "/B/copy": TWIN}
-    assert [c.distance for c in company_of(scene, "/A/target").neighbours()] == pytest.approx([0, 0])
+    assert [c.distance for c in neighbours_of(company_of(scene, "/A/target"))] == pytest.approx([0, 0])
 
 
 def test_companions_elsewhere_are_sorted_by_difference_in_size():
@@ -151,7 +151,7 @@ def test_the_oriented_size_counts_where_it_is_known():
     # A box of 1 × 1 m turned by 45 degrees fills 1.414 × 1.414 m of the world.
     turned = thing("/A/turned", (math.sqrt(2), math.sqrt(2), 1), oriented_size=(1, 1, 1))
     scene = make_scene(turned, thing("/B/straight", (1, 1, 1)), thing("/B/larger", (math.sqrt(2), math.sqrt(2), 1)))
-    found = {c.name: (c.nearness, c.distance) for c in company_of(scene, "/A/turned").neighbours()}
+    found = {c.name: (c.nearness, c.distance) for c in neighbours_of(company_of(scene, "/A/turned"))}
     assert found["straight"] == (TWIN, 0)
     # Two extents of three are off by ln √2.
     assert found["larger"] == (ALIKE, pytest.approx(math.log(2) / 2 * math.sqrt(2 / 3)))
@@ -160,12 +160,12 @@ def test_the_oriented_size_counts_where_it_is_known():
 def test_without_a_size_only_siblings_are_companions():
     scene = things("/A/target", ("/A/beside", (1, 1, 1)), ("/B/elsewhere", (1, 1, 1)))
     assert seen(scene, "/A/target") == {"/A/beside": NEXT}
-    assert company_of(scene, "/A/target").neighbours()[0].distance is None
+    assert neighbours_of(company_of(scene, "/A/target"))[0].distance is None
 
 
 def test_a_single_object_has_no_companions():
     lonely = company_of(things(("/A", (1, 1, 1))), "/A")
-    assert lonely.neighbours() == []
+    assert neighbours_of(lonely) == []
     assert words_written(lonely, "a", lambda word: [(word, 0.0)]) == []
     assert neighbourhoods(things()) == []
 
@@ -265,7 +265,7 @@ def scenes(draw) -> Scene:
 @given(scenes())
 def test_the_target_is_never_its_own_companion(scene: Scene):
     for obj, its in zip(scene.objects, neighbourhoods(scene), strict=True):
-        found = its.neighbours()
+        found = neighbours_of(its)
         paths = [path_of(companion) for companion in found]
         assert obj.prim_path not in paths
         assert len(set(paths)) == len(paths)
@@ -291,7 +291,7 @@ def test_renaming_the_target_changes_nothing(scene: Scene, data):
     path = old.prim_path.rpartition("/")[0] + "/Zebra_77"
     renamed = make_scene(*scene.objects[:at], thing(path, old.box and old.box.size), *scene.objects[at + 1 :])
     before, after = neighbourhoods(scene)[at], neighbourhoods(renamed)[at]
-    assert before.neighbours() == after.neighbours()
+    assert neighbours_of(before) == neighbours_of(after)
     for word in {word for obj in scene.objects for word in words_of(obj.name)} | {"zebra"}:
         assert words_written(before, word, initials) == words_written(after, word, initials)
 
@@ -328,7 +328,7 @@ def test_the_cost_of_a_target_does_not_depend_on_the_scene(monkeypatch):
     for count in (400, 4000):
         everyone = neighbourhoods(large_scene(count))
         for its in everyone[count // 2 : count // 2 + 20]:
-            assert len(its.neighbours()) <= 48 + 40
+            assert len(neighbours_of(its)) <= 48 + 40
     # At most one comparison for each neighbour by volume and one for each companion.
     assert compared[400] == compared[4000] <= 20 * (48 + 88)
 
@@ -344,7 +344,7 @@ def test_time_is_not_quadratic_in_the_number_of_siblings():
     start = time.process_time()
     everyone = neighbourhoods(scene)
     found = [words_written(its, "book", ways) for its in everyone]
-    companions = [len(its.neighbours()) for its in everyone[::50]]
+    companions = [len(neighbours_of(its)) for its in everyone[::50]]
     assert time.process_time() - start < 5
     assert found == [[("book", 9_999 / 10_000, -1.0)]] * 10_000
     # The index of words is built once, not for each target.

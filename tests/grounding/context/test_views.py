@@ -7,6 +7,7 @@ import pytest
 from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
+from tests.grounding.records import neighbours_of
 from tests.scene.usda import component, cube, prim, xform
 from usd2kg.grounding import EVIDENCE_GROUPS, STUDY_GROUPS, NamingRegime, ObjectView, view_objects
 from usd2kg.grounding.context import abbreviate
@@ -130,7 +131,7 @@ def test_the_semantic_regime_shows_all_fields():
         is_masked=False,
     )
     assert list(view.siblings) == ["Plate"]
-    assert [companion.name for companion in view.neighbourhood.neighbours()] == ["Plate", "Table", "Lamp"]
+    assert [companion.name for companion in neighbours_of(view.neighbourhood)] == ["Plate", "Table", "Lamp"]
 
 
 def test_opaque_names_are_numbers_in_traversal_order():
@@ -214,8 +215,8 @@ def test_no_group_shows_nothing():
 
 @pytest.mark.parametrize("regime", [NamingRegime.ABBREVIATED, NamingRegime.OPAQUE])
 def test_a_masked_target_has_companions_except_in_the_study_groups(regime):
-    others = [[companion.name for companion in view.neighbourhood.neighbours()] for view in views(KITCHEN, regime)]
-    # Children of the table have its name among their parents and are no companions of it.
+    others = [[companion.name for companion in neighbours_of(view.neighbourhood)] for view in views(KITCHEN, regime)]
+    # Children of the table have its name among their parents and are not companions of it.
     assert [sorted(names) for names in others] == [
         ["Lamp"],
         ["Lamp", "Plate", "Table"],

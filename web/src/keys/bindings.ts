@@ -129,7 +129,7 @@ export const BINDINGS: Binding[] = [
   },
   {
     keys: ["ArrowUp", "K"],
-    help: "Back to the group before",
+    help: "Previous group",
     section: "Queue",
     run: (store) => {
       review(store);
@@ -144,7 +144,7 @@ export const BINDINGS: Binding[] = [
   },
   {
     keys: ["ArrowLeft"],
-    help: "Member before",
+    help: "Previous member of the group",
     section: "Queue",
     run: (store) => moveMember(store, -1),
   },

@@ -28,7 +28,7 @@ export function Dialog({ title, onClose, children }: Props) {
         onClose();
       }}
       onClick={(event) => {
-        // The dialog itself is hit only beside its content.
+        // The dialog itself is hit only outside its content.
         if (event.target === dialog.current) onClose();
       }}
     >

@@ -205,7 +205,7 @@ function Actions({ store, group }: { store: Store; group: QueueGroup }) {
         Other class <kbd>/</kbd>
       </button>
       {group.concept >= 0 && (
-        <button type="button" title="All open objects of the concept, in one stroke" onClick={() => openConcept(store)}>
+        <button type="button" title="All open objects of the concept, in one step" onClick={() => openConcept(store)}>
           Every {conceptLabel(store.model, group.concept)} <kbd>E</kbd>
         </button>
       )}

@@ -46,7 +46,7 @@ export interface Coloring {
 }
 
 /** Also in styles/states.css. */
-export const STATE_COLORS: Record<ReviewState, Rgb> = {
+const STATE_COLORS: Record<ReviewState, Rgb> = {
   suggested: [0.45, 0.61, 0.86],
   confirmed: [0.2, 0.66, 0.39],
   corrected: [0.1, 0.62, 0.65],
@@ -103,7 +103,7 @@ export function colorObjects(
       return byGroup(
         states,
         (state) => supports.get(state.object) ?? -1,
-        (key) => (key < 0 ? "on and in nothing" : (model.shortNames[key] ?? "")),
+        (key) => (key < 0 ? "not on or in anything" : (model.shortNames[key] ?? "")),
       );
     case "confidence":
       return byStep(states);

@@ -123,7 +123,7 @@ function isSame(change: SceneChange, other: SceneChange | null): boolean {
 }
 
 /** Returns the changes with a kind that is not hidden, of objects that pass a filter. */
-export function shownChanges(
+function shownChanges(
   changes: readonly SceneChange[],
   hidden: ReadonlySet<ChangeKind>,
   shown: ReadonlySet<number> | null,

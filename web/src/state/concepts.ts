@@ -5,7 +5,7 @@ import { candidatesOf, focusOf } from "./candidates";
 import { isOpen } from "./review";
 import type { Store } from "./store";
 
-export interface ConceptObjects {
+interface ConceptObjects {
   open: ObjectIndex[];
   /** How many a person has decided; they stay as they are. */
   decided: number;

@@ -41,7 +41,7 @@ export function indices(count: number): number[] {
 }
 
 /** Returns for each entry the entries that name it. */
-export function invert(parents: number[][]): number[][] {
+function invert(parents: number[][]): number[][] {
   const found: number[][] = parents.map(() => []);
   parents.forEach((above, index) => {
     for (const parent of above) found[parent]?.push(index);

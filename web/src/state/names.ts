@@ -4,7 +4,7 @@ const MIN_SHARE = 0.6;
 const MIN_LENGTH = 6;
 
 /** Returns the longest beginning, up to a separator, that most names share; empty if there is none worth leaving out. */
-export function sharedBeginning(names: readonly string[]): string {
+function sharedBeginning(names: readonly string[]): string {
   const counts = new Map<string, number>();
   for (const name of names) {
     for (const { index } of name.matchAll(/[_\-. ]/g)) {

@@ -5,7 +5,7 @@ import { conceptOf } from "./concepts";
 import { conceptLabel } from "./model";
 import type { Store } from "./store";
 
-export interface ProposedClass {
+interface ProposedClass {
   label: string;
   parent: ClassIndex;
   /** How many objects it holds. */

@@ -30,10 +30,10 @@ import { StateTable } from "./stateTable";
 export type Saving = "saved" | "saving" | "failed" | "offline";
 export type Drawer = "review" | "ask" | "sparql" | "diagnostics" | "run" | "compare";
 
-/** What a decision says beside class and objects. */
+/** What a decision says apart from class and objects. */
 export type DecisionDetails = Pick<DecisionRequest, "concept" | "proposal" | "comment">;
 
-export interface Notice {
+interface Notice {
   id: number;
   text: string;
   kind: "info" | "error";

@@ -19,7 +19,7 @@ export async function loadGeometry(
     onProgress(index, chunks.length);
     const data: ArrayBuffer = await next;
     next = index + 1 < chunks.length ? fetchFile(index + 1) : null;
-    // The error of a request that is never awaited is no error of the page.
+    // The error of a request that is never awaited is not an error of the page.
     next?.catch(() => {});
     for (const use of await viewer.addFile(data)) textures.set(use.texture, use);
   }

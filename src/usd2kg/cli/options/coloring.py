@@ -48,7 +48,8 @@ class ColorOptions(OptionBundle):
             mode = ColorMode.MATERIAL if self.ask is None else ColorMode.ANSWER
             if mode is ColorMode.MATERIAL and (self.ontology or self.decisions):
                 raise OutputError(
-                    "--ontology and --decisions change no colour of a material; choose another --color-by than material"
+                    "--ontology and --decisions do not change the colours of materials; choose another --color-by than "
+                    "material"
                 )
         elif self.color_by in modes:
             mode = ColorMode(self.color_by)

@@ -36,7 +36,8 @@ class SpatialOptions(OptionBundle):
         Option(
             "--relation-kinds",
             help="Comma-separated spatial relations to find: on, inside, attached-to, above, below, touching, next-to, "
-            "near, room, part-of, between, or all; default: all of these but between.",
+            "near, room, connects, part-of, between, and with --viewpoint left, right, front, behind, or all; default: "
+            "all but between.",
         ),
     ] = None
     relation_rules: Annotated[

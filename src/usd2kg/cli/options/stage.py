@@ -40,7 +40,7 @@ class StageOptions(OptionBundle):
     ] = None
     exclude: Annotated[
         list[str] | None,
-        Option("--exclude", help="Path pattern: matching prims and their descendants are no objects. Repeatable."),
+        Option("--exclude", help="Path pattern: matching prims and their descendants are not objects. Repeatable."),
     ] = None
     kind: Annotated[
         list[str] | None,

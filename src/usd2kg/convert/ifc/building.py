@@ -45,7 +45,7 @@ def read_prims(path: Path) -> Converted:
 
 
 def _check_structure(path: Path, model: Any) -> None:
-    """Refuse what IfcOpenShell would tessellate for ever: a missing GlobalId, and a whole that is its own part.
+    """Refuse what IfcOpenShell would tessellate indefinitely: a missing GlobalId, and a whole that is its own part.
 
     Raises:
         SceneError: the file has one.

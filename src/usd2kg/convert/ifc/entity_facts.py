@@ -1,4 +1,4 @@
-"""What an IFC file states about an entity besides its geometry: name, kind of thing, identifiers, properties."""
+"""What an IFC file states about an entity apart from its geometry: name, kind of thing, identifiers, properties."""
 
 from collections.abc import Mapping
 from typing import Any

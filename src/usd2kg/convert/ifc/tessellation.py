@@ -13,7 +13,7 @@ from usd2kg.srgb import linear_from_srgb
 __all__ = ["NOT_PHYSICAL", "Shape", "instances_of", "tessellate"]
 
 NOT_PHYSICAL = ("IfcFeatureElementSubtraction", "IfcAnnotation", "IfcGrid", "IfcVirtualElement", "IfcPort")
-"""Classes without a physical thing of their own: openings are cut out of walls, the others are no solids."""
+"""Classes without a physical thing of their own: openings are cut out of walls, the others are not solids."""
 
 
 class Shape(NamedTuple):

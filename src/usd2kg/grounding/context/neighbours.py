@@ -151,10 +151,6 @@ class Neighbourhood:
         """
         return self._stage.of_names(find)
 
-    def neighbours(self) -> list[Neighbour]:
-        """Return the siblings and the objects of equal or similar size, each once."""
-        return [self.neighbour(other, nearness, distance) for other, (nearness, distance) in self._find().items()]
-
     def votes(self, vote: AskVote[V]) -> list[tuple[V, Nearness, float | None, int]]:
         """Return (vote, nearness, size distance, index in the scene) of each neighbour that votes.
 

@@ -9,17 +9,16 @@ from usd2kg.grounding.lexical.settings import ABSTENTION, COPIES
 from usd2kg.grounding.model import Prediction
 from usd2kg.ontology import ClassIRI, TBox
 
-__all__ = ["choose_superclass", "reconcile_copies"]
+__all__ = ["choose_superclass", "reconcile_copies", "superclass_confidence"]
 
 
 def choose_superclass(scores: Mapping[ClassIRI, float], tbox: TBox) -> ClassIRI:
     """Return the class with the highest expected hierarchical F1 (Silla and Freitas, 2011) over the candidates.
 
-    Maximises Σ_k P(k) · F1(↑c, ↑k) over the candidates and their superclasses c, with P(k) ∝ score(k)² and ↑ the
-    closure of superclasses. Ties go to the more general class.
+    Maximises Σ_k P(k) · F1(↑c, ↑k) over the candidates and their superclasses c, with P(k) ∝ score(k)^`score_power`
+    and ↑ the closure of superclasses. Ties go to the more general class.
     """
-    total = sum(score**ABSTENTION.score_power for score in scores.values())
-    shares = {iri: score**ABSTENTION.score_power / total for iri, score in scores.items()}
+    shares = _shares(scores)
     choices = {above for iri in scores for above in tbox.closure(iri)}
 
     def expected(choice: ClassIRI) -> float:
@@ -31,6 +30,33 @@ def choose_superclass(scores: Mapping[ClassIRI, float], tbox: TBox) -> ClassIRI:
         return value
 
     return min(choices, key=lambda iri: (-round(expected(iri), 9), tbox.depths[iri], iri))
+
+
+def superclass_confidence(
+    superclass: ClassIRI, replaced: ClassIRI, confidence: float, scores: Mapping[ClassIRI, float], tbox: TBox
+) -> float:
+    """Return the probability that an object belongs to the class that replaces the best candidate, to four decimals.
+
+    The sum of the probabilities of the candidates that are subclasses of it: the best has its calibrated confidence p,
+    any other k has (1 - p) · P(k), with P as in `choose_superclass`. So a superclass is never less probable than the
+    candidate it replaces, and (1 - p) · P(best) is left for classes that are not candidates.
+
+    Args:
+        superclass: the chosen class.
+        replaced: the best candidate.
+        confidence: the calibrated confidence of the best candidate.
+        scores: candidate → score.
+        tbox: the classes.
+    """
+    others = sum(share for iri, share in _shares(scores).items() if iri != replaced and superclass in tbox.closure(iri))
+    own = confidence if superclass in tbox.closure(replaced) else 0.0
+    return round(own + (1 - confidence) * others, 4)
+
+
+def _shares(scores: Mapping[ClassIRI, float]) -> dict[ClassIRI, float]:
+    """Return candidate → its share of the sum of the scores to the power of `score_power`."""
+    total = sum(score**ABSTENTION.score_power for score in scores.values())
+    return {iri: score**ABSTENTION.score_power / total for iri, score in scores.items()}
 
 
 def reconcile_copies(views: Sequence[ObjectView], predictions: Sequence[Prediction], tbox: TBox) -> list[Prediction]:

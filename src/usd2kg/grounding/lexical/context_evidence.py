@@ -32,9 +32,9 @@ from usd2kg.grounding.lexical.evidence_combination import ScoredClass
 from usd2kg.grounding.lexical.matching.phrase_matching import PhraseMatcher
 from usd2kg.grounding.lexical.name_evidence import NameEvidence
 from usd2kg.grounding.lexical.neighbour_vote import Vote, count_votes, siblings_as_neighbours, vote_of
-from usd2kg.grounding.lexical.reading.conventions import shared_prefix, without_prefix
 from usd2kg.grounding.lexical.reading.evidence_texts import is_generated_name
 from usd2kg.grounding.lexical.reading.noun_phrase import NameReader
+from usd2kg.grounding.lexical.reading.shared_prefix import shared_prefix, without_prefix
 from usd2kg.grounding.lexical.settings import VOTE
 from usd2kg.ontology import ClassIRI, TBox
 from usd2kg.table_cache import TableCache

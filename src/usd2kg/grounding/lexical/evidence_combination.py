@@ -42,9 +42,11 @@ def combine_evidence(
     A product of experts (Hinton, 2002) of the words and the context. The context is a mixture: the object is either of
     a neighbour's class or drawn from the posterior by size and place. Floors keep one expert from excluding a class:
 
-        (words + 0.02) · (neighbours · (posterior + 0.04)^½ + (1 - Σ neighbours) · posterior + 0.01)^power
+        (words + word_floor) · (shared + (1 - Σ neighbours) · posterior + context_floor)^power
+        shared = neighbours · (posterior + posterior_floor)^posterior_power
 
-    The power is 1 less the best score of the words: the more informative the words, the less the context counts.
+    with the settings `COMBINATION`. The power is 1 less the best score of the words: the more informative the words,
+    the less the context counts.
 
     Args:
         by_words: the classes that words support, spelled out or abbreviated.

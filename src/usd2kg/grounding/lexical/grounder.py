@@ -12,7 +12,7 @@ from usd2kg.garbage import paused_collection
 from usd2kg.grounding.context.views import ObjectView
 from usd2kg.grounding.lexical.alignment.alignment_file import AlignmentFile
 from usd2kg.grounding.lexical.alignment.alignment_rows import AlignmentRow
-from usd2kg.grounding.lexical.class_choice import choose_superclass, reconcile_copies
+from usd2kg.grounding.lexical.class_choice import choose_superclass, reconcile_copies, superclass_confidence
 from usd2kg.grounding.lexical.concepts.home_names import home_names
 from usd2kg.grounding.lexical.confidence import calibrate, features_of, general_class_log_odds
 from usd2kg.grounding.lexical.object_grounder import ObjectGrounder
@@ -74,6 +74,8 @@ class LexicalGrounder:
                 else one.prediction
                 for one in scored
             ]
+            if self._abstains:
+                calibrated = [_abstain(one, tbox) for one in calibrated]
             return reconcile_copies([view for _, view in views], calibrated, tbox)
 
     def format_alignment(self, tbox: TBox, others: Iterable[AlignmentRow] = ()) -> str:
@@ -93,29 +95,26 @@ class LexicalGrounder:
         return self._object_grounder(tbox).general_classes
 
     def score_views(self, views: Sequence[tuple[str, ObjectView]], tbox: TBox) -> list[ScoredView]:
-        """Return a prediction with an uncalibrated score for each (prim path, view)."""
+        """Return the best candidate of each (prim path, view), with an uncalibrated score."""
         grounder = self._object_grounder(tbox)
-        scored = [grounder.predict(path, view) for path, view in views]
-        if not self._abstains:
-            return scored
-        return [_abstain(one, tbox) for one in scored]
+        return [grounder.predict(path, view) for path, view in views]
 
     def _object_grounder(self, tbox: TBox) -> ObjectGrounder:
         return _make_object_grounder(tbox, self._use_home_synonyms, self._use_member_lists, self._alignment)
 
 
-def _abstain(scored: ScoredView, tbox: TBox) -> ScoredView:
+def _abstain(prediction: Prediction, tbox: TBox) -> Prediction:
     """Return the prediction, generalised to the superclass that `choose_superclass` returns."""
-    prediction = scored.prediction
-    if prediction.class_iri is None:
-        return scored
-    iri = choose_superclass({candidate.class_iri: candidate.score for candidate in prediction.candidates}, tbox)
+    if prediction.class_iri is None or prediction.confidence is None:
+        return prediction
+    scores = {candidate.class_iri: candidate.score for candidate in prediction.candidates}
+    iri = choose_superclass(scores, tbox)
     if iri == prediction.class_iri:
-        return scored
+        return prediction
+    confidence = superclass_confidence(iri, prediction.class_iri, prediction.confidence, scores, tbox)
     names = ", ".join(tbox.by_iri[candidate.class_iri].readable_name for candidate in prediction.candidates[:3])
     explanation = f"{prediction.explanation}; {tbox.by_iri[iri].readable_name} is safer than any of {names}"
-    safer = replace(prediction, class_iri=iri, status=Status.SUPERCLASS, explanation=explanation)
-    return scored._replace(prediction=safer, is_listed=False)
+    return replace(prediction, class_iri=iri, confidence=confidence, status=Status.SUPERCLASS, explanation=explanation)
 
 
 @lru_cache(maxsize=4)

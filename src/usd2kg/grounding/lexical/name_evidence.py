@@ -56,7 +56,8 @@ class NameEvidence:
         scored: list[ScoredClass] = []
         for group, text in texts_of(view):
             if group in {"hierarchy", "parts"} and self._reader.names_known_noun(view.name):
-                # A tulip without a class in the TBox is not a tube because it has a stem.
+                # The name is understood and no class fits, so groups and parts could only add a wrong class: a tulip
+                # has a stem, and so has a pipe.
                 break
             is_name = group == "name"
             for match in self.match(text, view.parents if is_name else (), view.own_size if is_name else None):

@@ -8,8 +8,8 @@ from typing import Any
 from usd2kg.grounding.context.views import ObjectView
 from usd2kg.grounding.lexical.alignment.alignment_file import AlignmentFile, format_alignment
 from usd2kg.grounding.lexical.alignment.alignment_rows import AlignmentRow
+from usd2kg.grounding.lexical.alignment.artificial_root import NO_CLASS, NO_CLASS_IRI, with_root
 from usd2kg.grounding.lexical.alignment.built_alignment import BuiltAlignment, build_alignment
-from usd2kg.grounding.lexical.alignment.default_root import NO_CLASS, NO_CLASS_IRI, with_root
 from usd2kg.grounding.lexical.alignment.lexicon import Lexicon
 from usd2kg.grounding.lexical.alignment.lexicon_json import lexicon_as_json, lexicon_of_json
 from usd2kg.grounding.lexical.concepts.taxonomy import Taxonomy, load_taxonomy
@@ -18,9 +18,9 @@ from usd2kg.grounding.lexical.evidence_combination import CONTEXT_GROUPS, Scored
 from usd2kg.grounding.lexical.matching.phrase_matching import PhraseMatcher
 from usd2kg.grounding.lexical.matching.term_matching import TermMatcher
 from usd2kg.grounding.lexical.name_evidence import NameEvidence
-from usd2kg.grounding.lexical.reading.conventions import view_without_prefix, without_prefix
 from usd2kg.grounding.lexical.reading.evidence_texts import is_generated_name
 from usd2kg.grounding.lexical.reading.noun_phrase import NameReader
+from usd2kg.grounding.lexical.reading.shared_prefix import view_without_prefix, without_prefix
 from usd2kg.grounding.lexical.scored_view import ScoredView
 from usd2kg.grounding.lexical.settings import EVIDENCE
 from usd2kg.grounding.model import Candidate, Prediction, Status
@@ -97,7 +97,7 @@ class ObjectGrounder:
         if best.class_iri == NO_CLASS_IRI:
             return ScoredView(_refusal(prim_path, best.explain()), posterior)
         if best.group in CONTEXT_GROUPS and self._is_fallback(best.class_iri):
-            # Two unidentified objects are no evidence for each other.
+            # Two unidentified objects are not evidence for each other.
             return ScoredView(self._default(prim_path, best.explain()), posterior)
         scores = {found.class_iri: found.score for found in reversed(scored) if found.class_iri != NO_CLASS_IRI}
         candidates = sorted(scores.items(), key=lambda candidate: (-candidate[1], candidate[0]))
@@ -126,7 +126,8 @@ class ObjectGrounder:
         if word_score >= EVIDENCE.clear_score:
             return scored, word_score
         if not (scored or view.is_masked or is_generated) and self._reader.names_known_noun(view.name):
-            # A tulip without a class in the TBox is not what stands beside it either.
+            # The name is understood and no class fits, as for a tulip in a TBox of furniture: the classes of neighbours
+            # could only be wrong.
             return [], word_score
         expanded = [] if is_generated else self._words.score_abbreviation(view)
         return self._combine(view, [*scored, *expanded]), word_score

@@ -17,9 +17,9 @@ from usd2kg.grounding.lexical.concepts.sizes import Size, round_size
 from usd2kg.grounding.lexical.concepts.taxonomy import Taxonomy, load_taxonomy
 from usd2kg.grounding.lexical.matching.head_matching import HeadMatches, Match
 from usd2kg.grounding.lexical.matching.phrase_matching import PhraseMatcher
-from usd2kg.grounding.lexical.reading.conventions import shared_prefix, view_without_prefix
 from usd2kg.grounding.lexical.reading.evidence_texts import is_generated_name, texts_of
 from usd2kg.grounding.lexical.reading.noun_phrase import NamePhrase, NameReader
+from usd2kg.grounding.lexical.reading.shared_prefix import shared_prefix, view_without_prefix
 from usd2kg.grounding.lexical.settings import CONCEPT, MATCHING, READING
 from usd2kg.grounding.model import Concept
 from usd2kg.knowledge import read_text
@@ -29,7 +29,7 @@ __all__ = [
     "ConceptRecognizer",
     "ConfidenceWeights",
     "Recognition",
-    "concepts_named",
+    "concepts_of_noun",
     "describe_concepts",
     "load_recognizer",
     "share_features",
@@ -189,10 +189,10 @@ def _explain(noun: str) -> str:
     return f"“{noun}” names it"
 
 
-def concepts_named(noun: str) -> tuple[str, ...]:
+def concepts_of_noun(noun: str) -> tuple[str, ...]:
     """Return the IRIs of the senses of a noun or compound, in the singular or plural, the usual one first.
 
-    >>> concepts_named("Couches")[0] == concepts_named("sofa")[0]
+    >>> concepts_of_noun("Couches")[0] == concepts_of_noun("sofa")[0]
     True
     """
     taxonomy = load_taxonomy()

@@ -206,7 +206,7 @@ class MatchingSettings:
 
 @dataclass(frozen=True, slots=True)
 class HeadNounSettings:
-    """Expansion of the head noun."""
+    """Choice of the head noun."""
 
     corrected_factor: float
     min_not_modifier: float

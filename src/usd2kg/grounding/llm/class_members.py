@@ -1,7 +1,7 @@
 """Ask a language model which things belong to each class of an ontology: once per ontology, not per object."""
 
 import time
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 from typing import Any
@@ -14,6 +14,7 @@ from usd2kg.grounding.llm.completion import Request
 from usd2kg.grounding.llm.metered_client import MeteredClient
 from usd2kg.grounding.llm.prompt_options import PromptOptions
 from usd2kg.grounding.llm.prompt_text import fill_template
+from usd2kg.grounding.llm.prompts import object_schema
 from usd2kg.grounding.llm.settings import MEMBERS
 from usd2kg.ontology import ClassIRI, TBox
 
@@ -47,13 +48,9 @@ def _batched(iris: Sequence[ClassIRI], size: int) -> Iterator[Sequence[ClassIRI]
 def _make_request(system: str, names: Sequence[str]) -> Request:
     rows = "\n".join(f"{number}. {name}" for number, name in enumerate(names, start=1))
     nouns = {"type": "array", "items": {"type": "string"}}
-    row = _object_schema({"belongs": nouns, "not": nouns})
-    schema = _object_schema({str(number): row for number in range(1, len(names) + 1)})
+    row = object_schema({"belongs": nouns, "not": nouns})
+    schema = object_schema({str(number): row for number in range(1, len(names) + 1)})
     return Request(system, fill_template("member_question", classes=rows), schema)
-
-
-def _object_schema(properties: Mapping[str, Any]) -> dict[str, Any]:
-    return {"type": "object", "properties": properties, "required": list(properties), "additionalProperties": False}
 
 
 def ask_members(

@@ -16,7 +16,7 @@ from usd2kg.grounding.llm.prompt_options import PromptOptions, Strategy
 from usd2kg.grounding.llm.prompt_text import fill_template, read_template
 from usd2kg.ontology import ClassIRI, TBox
 
-__all__ = ["Batch", "Example", "build_requests"]
+__all__ = ["Batch", "Example", "build_requests", "object_schema"]
 
 
 @dataclass(frozen=True, slots=True)
@@ -145,8 +145,9 @@ def _answer_schema(count: int, names: list[str], strategy: Strategy) -> dict[str
     if strategy is Strategy.CHAIN_OF_THOUGHT:
         # First, since models write properties in the order of the schema.
         properties = {"reasoning": {"type": "string"}} | properties
-    return _object_schema({str(number): _object_schema(properties) for number in range(1, count + 1)})
+    return object_schema({str(number): object_schema(properties) for number in range(1, count + 1)})
 
 
-def _object_schema(properties: dict[str, Any]) -> dict[str, Any]:
+def object_schema(properties: Mapping[str, Any]) -> dict[str, Any]:
+    """Return the JSON schema of an object with these properties and no others."""
     return {"type": "object", "properties": properties, "required": list(properties), "additionalProperties": False}

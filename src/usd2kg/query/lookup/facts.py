@@ -72,7 +72,7 @@ class SceneFacts:
                 yield iri, label
 
     def below_group(self, name: str) -> list[str]:
-        """Return the objects below a group, named in lower case; the root and its children are no groups."""
+        """Return the objects below a group, named in lower case; the root and its children are not groups."""
         part = f"/{name}/"
         found = zip(self.columns.iris, self._lower_paths, strict=True)
         return [iri for iri, path in found if part in path and name in path.split("/")[2:-1]]

@@ -10,8 +10,8 @@ from usd2kg.graph.vocabulary import RDFS, SKOS
 from usd2kg.grounding import concepts_named
 from usd2kg.knowledge import word_map
 from usd2kg.ontology import expand_curie
-from usd2kg.query.lookup.copies import find_copies
 from usd2kg.query.lookup.facts import SceneFacts
+from usd2kg.query.lookup.unnamed_copies import find_copies
 from usd2kg.query.lookup.word_forms import name_words, singular
 from usd2kg.query.settings import WORDS
 

@@ -16,7 +16,8 @@ from usd2kg.query.lookup.colors import COLORS, has_color, has_material, is_mater
 from usd2kg.query.lookup.corrections import Spelling
 from usd2kg.query.lookup.facts import SceneFacts
 from usd2kg.query.lookup.kinds import Kinds
-from usd2kg.query.lookup.word_forms import is_noun, name_words, noun_words, singular, split_phrase
+from usd2kg.query.lookup.prepositions import RELATION_OF, preposition_pattern
+from usd2kg.query.lookup.word_forms import is_noun, is_plural, name_words, noun_words, singular, split_phrase
 from usd2kg.words import split_identifier
 
 __all__ = ["Nouns", "Things", "UnknownWordError"]
@@ -32,27 +33,13 @@ _NUMBERS = word_set("query", "number_words")
 _ROOM_NOUNS = word_set("query", "room_nouns")
 _LANGUAGES = ("de", "fr", "es", "it")
 _SIZES = {"big": max, "large": max, "huge": max, "tall": max, "small": min, "little": min, "tiny": min, "short": min}
-_RELATIONS = {
-    "on top of": "on",
-    "on": "on",
-    "upon": "on",
-    "inside of": "inside",
-    "inside": "inside",
-    "in": "inside",
-    "within": "inside",
-    "next to": "near",
-    "beside": "near",
-    "near": "near",
-    "by": "near",
-    "at": "near",
-    "above": "above",
-    "over": "above",
-    "attached to": "attached",
-    "mounted on": "attached",
-    "hanging on": "attached",
-    "from": "inside",
-}
-_RELATION = re.compile(rf"(?P<first>.+?) (?:that (?:is|are) )?(?P<relation>{'|'.join(_RELATIONS)}) (?P<second>.+)")
+_RELATIONS = ("on", "inside", "near", "above", "attached")
+"""Relations in noun phrases: cups on the table."""
+_ORIGIN = {"from": "inside"}
+"""Prepositions of noun phrases only: the milk from the fridge is inside it, but what hangs from it is not."""
+_PREPOSITIONS = "|".join([preposition_pattern(_RELATIONS), *_ORIGIN])
+_RELATION_OF = {**RELATION_OF, **_ORIGIN}
+_RELATION = re.compile(rf"(?P<first>.+?) (?:that (?:is|are) )?(?P<relation>{_PREPOSITIONS}) (?P<second>.+)")
 
 _Criterion = Callable[[], Iterable[str]]
 """Returns the objects that match a name in one way."""
@@ -78,6 +65,11 @@ class Things:
     def suffix(self) -> str:
         """The note, to be added to a sentence."""
         return f" ({self.note})" if self.note else ""
+
+    @property
+    def absence(self) -> str:
+        """The clause that there are no such things."""
+        return f"there {'are' if is_plural(self.text) else 'is'} no {self.text} in this scene{self.suffix}"
 
 
 class Nouns:
@@ -128,6 +120,18 @@ class Nouns:
         if len(words) > 1 and words[-1] in _FRAMES and (framed := self._find(" ".join(words[:-1]))) and framed.iris:
             return replace(framed, note=f"“{' '.join(words)}” was read as “{framed.text}”")
         return found or self._correct(words)
+
+    def existing(self, text: str) -> Things:
+        """Return the objects that a noun phrase means, at least one.
+
+        Raises:
+            UnknownWordError: a word is not understood.
+            GraphError: there are none.
+        """
+        things = self.find(text)
+        if not things.iris:
+            raise GraphError(things.absence)
+        return things
 
     def _find(self, text: str) -> Things | None:
         """Return what a phrase means as it is written; None if a word is unknown."""
@@ -269,7 +273,7 @@ class Nouns:
         first = self._find(" ".join(split_phrase(parts["first"])))
         if first is None:
             return None
-        near = self.around(_RELATIONS[parts["relation"]], parts["second"], is_direct=False)
+        near = self.around(_RELATION_OF[parts["relation"]], parts["second"], is_direct=False)
         shown = f"{first.text} {parts['relation']} {parts['second']}"
         return Things(tuple(iri for iri in first.iris if iri in near), shown)
 
@@ -291,7 +295,7 @@ class Nouns:
         if relation == "inside" and not found and (area := self.in_area(text)):
             return area
         if not anchors.iris:
-            raise GraphError(f"there is no {anchors.text} in this scene{anchors.suffix}")
+            raise GraphError(anchors.absence)
         return found
 
     def is_whole_scene(self, text: str) -> bool:
@@ -349,7 +353,7 @@ class Nouns:
         )
 
     def _is_known(self, word: str) -> bool:
-        return word in _RELATIONS or word in _DETERMINERS or is_noun(word)
+        return _RELATION_OF.get(word) in _RELATIONS or word in _DETERMINERS or is_noun(word)
 
 
 def _head_of(label: str) -> str:

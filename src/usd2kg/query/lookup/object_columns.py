@@ -15,7 +15,7 @@ from usd2kg.query.column_file import Columns, keep_columns, pack_texts, unpack_t
 from usd2kg.query.dataset import Dataset
 from usd2kg.words import split_identifier
 
-__all__ = ["ObjectColumns", "RowPairs", "load_object_columns"]
+__all__ = ["NEAR_PROPERTIES", "ObjectColumns", "RowPairs", "load_object_columns"]
 
 _FILE = "objects.npz"
 _GENERIC_CLASSES = {OWL.NamedIndividual, USD.Prim, U2K.Object, U2K.DerivedRoom}
@@ -30,12 +30,13 @@ class _Link(NamedTuple):
     """Whether the anchor is its subject."""
 
 
-_NEAR = (DUL.nearTo, KNOWROB.isNextTo, DUL.hasCommonBoundary, U2K.near, U2K.nextTo, U2K.touching)
+NEAR_PROPERTIES = (DUL.nearTo, KNOWROB.isNextTo, DUL.hasCommonBoundary, U2K.near, U2K.nextTo, U2K.touching)
+"""Properties that state that objects are near each other, in both profiles."""
 _RELATIONS = {
     "on": (_Link(SOMA.isOntopOf), _Link(U2K.on)),
     "inside": (_Link(SOMA.isInsideOf), _Link(U2K.inside), _Link(U2K.inRoom)),
     "room": (_Link(U2K.inRoom),),
-    "near": tuple(map(_Link, _NEAR)),
+    "near": tuple(map(_Link, NEAR_PROPERTIES)),
     "above": (_Link(KNOWROB.isAboveOf), _Link(U2K.above)),
     "attached": (_Link(U2K.attachedTo),),
     "left": (_Link(KNOWROB.isLeftOf), _Link(U2K.leftOf)),

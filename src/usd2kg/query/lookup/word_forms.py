@@ -8,7 +8,16 @@ from usd2kg.grounding import concepts_named
 from usd2kg.knowledge import word_set
 from usd2kg.words import split_identifier
 
-__all__ = ["IRREGULAR_PLURALS", "common_stem", "is_noun", "name_words", "noun_words", "singular", "split_phrase"]
+__all__ = [
+    "IRREGULAR_PLURALS",
+    "common_stem",
+    "is_noun",
+    "is_plural",
+    "name_words",
+    "noun_words",
+    "singular",
+    "split_phrase",
+]
 
 _FILLERS = word_set("query", "determiners")
 IRREGULAR_PLURALS = {
@@ -48,6 +57,15 @@ def singular(word: str) -> str:
         if stem != word and len(stem) >= _MIN_STEM + (ending == "s") and not word.endswith("ss"):
             return stem + replacement
     return word
+
+
+def is_plural(noun: str) -> bool:
+    """Return whether the last word of a noun is a plural.
+
+    >>> is_plural("wine glasses"), is_plural("glass"), is_plural("sheep")
+    (True, False, False)
+    """
+    return singular(last := noun.rsplit(maxsplit=1)[-1]) != last if noun else False
 
 
 def common_stem(word: str) -> str:

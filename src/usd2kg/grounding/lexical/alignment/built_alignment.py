@@ -4,7 +4,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 from usd2kg.grounding.lexical.alignment.alignment_rows import SHIPPED_LISTS, AlignmentRow
-from usd2kg.grounding.lexical.alignment.default_root import build_rooted_lexicon
+from usd2kg.grounding.lexical.alignment.artificial_root import build_rooted_lexicon
 from usd2kg.grounding.lexical.alignment.lexicon import Lexicon
 from usd2kg.grounding.lexical.alignment.lexicon_editor import LexiconEditor
 from usd2kg.grounding.lexical.alignment.member_lists import shipped_rows

@@ -6,7 +6,7 @@ from functools import cached_property
 
 from usd2kg.errors import GroundingError
 from usd2kg.grounding.lexical.alignment.alignment_rows import SHIPPED_LISTS, AlignmentRow, RowKind, written_class
-from usd2kg.grounding.lexical.alignment.default_root import NO_CLASS_IRI
+from usd2kg.grounding.lexical.alignment.artificial_root import NO_CLASS_IRI
 from usd2kg.grounding.lexical.alignment.lexicon import CategoryMember, Lexicon, make_lexicon
 from usd2kg.grounding.lexical.alignment.terms import AlignedClass, Term, TermKind, term_key
 from usd2kg.grounding.lexical.concepts.senses import usual_sense
@@ -170,8 +170,8 @@ class LexiconEditor:
         synset = self._taxonomy.find_concept(row.subject)
         if synset is None:
             raise GroundingError(
-                f"{self._source}: line {row.line}: {row.subject!r} is no known concept; expected a synset of WordNet "
-                "3.1, like wn:02873453-n, or leave subject_id empty and name a term in subject_label"
+                f"{self._source}: line {row.line}: {row.subject!r} is not a known concept; expected a synset of "
+                "WordNet 3.1, like wn:02873453-n, or leave subject_id empty and name a term in subject_label"
             )
         return synset
 

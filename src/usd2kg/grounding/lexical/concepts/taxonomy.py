@@ -79,7 +79,7 @@ class Taxonomy:
         self._names = _Cells(columns.synset_names)
         self._sizes = _Cells(columns.synset_hyponym_counts)
         lemmas = columns.lemmas.decode().split("\t")
-        self._places = dict(zip(lemmas, range(len(lemmas)), strict=True))
+        self._row_of_lemma = dict(zip(lemmas, range(len(lemmas)), strict=True))
         self._kinds = _Cells(columns.lemma_kinds)
         self._synsets = _Cells(columns.lemma_synsets)
         self._is_one_word = columns.lemma_is_one_word.decode()
@@ -93,9 +93,9 @@ class Taxonomy:
         """Return the senses of a lemma or joined compound (`flowerpot`), most frequent first; none if it is unknown."""
         found = self._senses.get(lemma)
         if found is None:
-            if lemma not in self._places:
+            if lemma not in self._row_of_lemma:
                 return ()
-            synsets, kinds = self._synsets[self._places[lemma]].split(), self.parse_kinds(self.kinds(lemma))
+            synsets, kinds = self._synsets[self._row_of_lemma[lemma]].split(), self.parse_kinds(self.kinds(lemma))
             pairs = zip(synsets, kinds, strict=True)
             found = self._senses[lemma] = tuple(Sense(int(synset), *kind) for synset, kind in pairs)
         return found
@@ -105,7 +105,7 @@ class Taxonomy:
 
         Many lemmas share one text, which callers use as a cache key.
         """
-        at = self._places.get(lemma)
+        at = self._row_of_lemma.get(lemma)
         return "" if at is None else self._kinds[at]
 
     def parse_kinds(self, kinds: str) -> list[tuple[int, str]]:
@@ -115,18 +115,22 @@ class Taxonomy:
     @property
     def lemmas(self) -> Collection[str]:
         """All lemmas."""
-        return self._places.keys()
+        return self._row_of_lemma.keys()
 
     def __contains__(self, lemma: str) -> bool:
-        return lemma in self._places
+        return lemma in self._row_of_lemma
 
     def is_phrase(self, lemma: str) -> bool:
         """Return whether a lemma is a compound of several written words: `ctscanner` is “CT scanner”."""
-        return lemma in self._places and self._is_one_word[self._places[lemma]] == "0"
+        return lemma in self._row_of_lemma and self._is_one_word[self._row_of_lemma[lemma]] == "0"
 
     def phrases(self) -> list[str]:
         """Return the compounds of several written words, joined."""
-        return [lemma for lemma, is_one_word in zip(self._places, self._is_one_word, strict=True) if is_one_word == "0"]
+        return [
+            lemma
+            for lemma, is_one_word in zip(self._row_of_lemma, self._is_one_word, strict=True)
+            if is_one_word == "0"
+        ]
 
     def name(self, synset: int) -> str:
         """Return the first lemma of a synset, with its spaces."""
@@ -224,11 +228,11 @@ class Taxonomy:
         >>> load_taxonomy().singular("knives")
         'knife'
         """
-        return word if word in self._places or len(word) < 4 else self._singular(word)
+        return word if word in self._row_of_lemma or len(word) < 4 else self._singular(word)
 
     def _find_singular(self, word: str) -> str:
         for ending, singular in (*_PLURALS, *_MORE_PLURALS):
-            if word.endswith(ending) and (stem := word[: -len(ending)] + singular) in self._places:
+            if word.endswith(ending) and (stem := word[: -len(ending)] + singular) in self._row_of_lemma:
                 return stem
         return word
 
@@ -238,7 +242,7 @@ class Taxonomy:
         return sorted(
             [
                 lemma
-                for lemma, kinds, is_one_word in zip(self._places, self._kinds, self._is_one_word, strict=True)
+                for lemma, kinds, is_one_word in zip(self._row_of_lemma, self._kinds, self._is_one_word, strict=True)
                 if is_one_word == "1" and lemma.isalpha() and not others(kinds)
             ]
         )

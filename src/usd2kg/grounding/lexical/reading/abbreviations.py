@@ -38,7 +38,7 @@ _UNREAD = {
         for count in range(3, CHANNEL.max_unknown_letters + 1)
     },
 }
-"""Number of letters → log probability that they are no known word, in two terms: the C of CupC, a brand."""
+"""Number of letters → log probability that they are not a known word, in two terms: the C of CupC, a brand."""
 _PREFIXES = word_set("lexical", "pipeline_prefixes")
 _PREFIX = (math.log(CHANNEL.pipeline_prefix), 0.0)
 _NEVER = (-math.inf, 0.0)
@@ -60,7 +60,7 @@ class _StageWord(NamedTuple):
     """A word of the stage that a form may abbreviate; the best sorts first."""
 
     loss: float
-    """The negative score of a `Expansion`."""
+    """The negative score of an `Expansion`."""
     word: str
     noun: str
     """The word in the singular."""

@@ -25,7 +25,7 @@ _FIRST_SPREAD = 4.0
 _MARGIN, _STEP = 0.7, 2.0
 """Added to the estimate for words that several paths lead to, and after a wrong estimate."""
 _IGNORED_LOSS = 3.0
-"""Log ratio to the needed score from which paths by pieces that are no word are bounded instead of scored."""
+"""Log ratio to the needed score from which paths by pieces that are not a word are bounded instead of scored."""
 _TABLES = ((1, 10), (2, 5), (3, 4), (4, 3), (5, 2), (10, 1))
 """Rows and columns of tables with at least as many cells as the beam is wide."""
 _TABLE_LOSS = 2.5
@@ -37,7 +37,7 @@ _Key = tuple[int, str]
 """The words of a path: the node of all words but the last, and the last."""
 Path = tuple[float, int, int]
 """A reading of the letters up to some index: its score, a log probability up to a constant; the node of its words; and
-its number of pieces, which are words or letters that are no word."""
+its number of pieces, which are words or letters that are not a word."""
 _Start = tuple[float, int, int, Mapping[str, float]]
 """A path to be extended: its score, the node of its words, its number of pieces with the next one, and the bonuses of
 words after its last."""
@@ -76,7 +76,7 @@ class Arc(NamedTuple):
     starts: Starts
     """At least one."""
     unread: tuple[float, float]
-    """Log probability that the piece is no word, in two terms; -inf where it must be one."""
+    """Log probability that the piece is not a word, in two terms; -inf where it must be one."""
     piece: Piece
 
 
@@ -138,7 +138,7 @@ class Beam:
         """Return words → score by the paths that may reach the needed score.
 
         Words that are not returned score less even by all their paths together. The needed score is divided among the
-        arcs after the same words; paths by pieces that are no word may add a little.
+        arcs after the same words; paths by pieces that are not a word may add a little.
         """
         found: _Found = {}
         lowest = needed - math.log(max(counts.values()))
@@ -149,7 +149,7 @@ class Beam:
         return found
 
     def _pass_over(self, arc: Arc, least: float, found: _Found) -> None:
-        """Add the words of the paths on which a piece is no word."""
+        """Add the words of the paths on which a piece is not a word."""
         unread, letters = arc.unread
         for start in arc.starts.ordered:
             score = start[0] + unread + letters

@@ -1,4 +1,4 @@
-"""Frequency of a word in English text, and its prior as the name of an object in a scene."""
+"""Prior of a word as the name of an object in a scene, from its frequency in English text."""
 
 import gzip
 import math
@@ -8,7 +8,7 @@ from usd2kg.grounding.lexical.concepts.taxonomy import load_taxonomy
 from usd2kg.grounding.lexical.settings import DOMAIN_FREQUENCY, WORD_PRIOR
 from usd2kg.knowledge import read_bytes
 
-__all__ = ["UNKNOWN_FREQUENCY", "log_prior", "word_frequency"]
+__all__ = ["UNKNOWN_FREQUENCY", "log_prior"]
 
 UNKNOWN_FREQUENCY = 1.0
 """Zipf score of a word in no list: ten uses in a billion words, the end of SCOWL's class 70, rounded down."""
@@ -22,24 +22,16 @@ _UNLISTED = f"{10 * UNKNOWN_FREQUENCY:.0f}/"
 
 @lru_cache(maxsize=1)
 def _load_entries() -> dict[str, str]:
-    """Return word → “tenths of Zipf score/percent of uses as a common noun”, parsed on access."""
+    """Return word → “tenths of Zipf score/percent of uses as a common noun”, parsed on access.
+
+    The words are singular nouns and adjectives in lower case, without compounds of several words and words for nothing
+    physical (`summer`). The Zipf score is log10 of the uses in a billion words, plurals with their singular, all parts
+    of speech together. It rests on ranks (books up to 2012, Wikipedia, novels), not on counts, so it errs by half a
+    unit.
+    """
     data = read_bytes("frequencies.txt.gz")
     words, entries = gzip.decompress(data).decode("ascii").splitlines()
     return dict(zip(words.split(), entries.split(), strict=True))
-
-
-def word_frequency(word: str) -> float:
-    """Return the Zipf score of a singular noun or an adjective in lower case: log10 of its uses in a billion words.
-
-    Plurals are counted with their singular, all parts of speech together; the score is given to one decimal.
-    It rests on ranks (books up to 2012, Wikipedia, novels), not on counts, so it errs by half a unit. Any other
-    word has `UNKNOWN_FREQUENCY`: an unknown one, a plural, a compound of several words, a word for nothing physical
-    (`summer`).
-
-    >>> word_frequency("chair"), word_frequency("davenport")
-    (4.9, 3.7)
-    """
-    return int(_load_entries().get(word, _UNLISTED).partition("/")[0]) / 10
 
 
 def log_prior(word: str) -> float:

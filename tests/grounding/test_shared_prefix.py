@@ -7,7 +7,7 @@ import pytest
 from benchmarks.bare import bare_object, bare_scene
 from usd2kg.demo import demo_scene
 from usd2kg.grounding import NamingRegime, ground
-from usd2kg.grounding.lexical.reading.conventions import shared_prefix, without_prefix
+from usd2kg.grounding.lexical.reading.shared_prefix import shared_prefix, without_prefix
 from usd2kg.ontology import load_home_tbox
 from usd2kg.scene import read_scene
 
