@@ -110,7 +110,7 @@ lock: $(READY) ## Pin the dependencies of pyproject.toml in requirements/, with 
 	  --output-file requirements/run.txt pyproject.toml
 	printf 'cyclonedx-bom\npip-audit\n' | $(BIN)/uv pip compile --quiet --universal --python-version 3.11 \
 	  --generate-hashes --no-header --no-annotate --output-file requirements/supply.txt -
-	printf 'mkdocs\nmkdocs-material\nmkdocstrings-python\n' | $(BIN)/uv pip compile --quiet --universal --python-version 3.11 \
+	printf 'black\nmkdocs\nmkdocs-material\nmkdocstrings-python\n' | $(BIN)/uv pip compile --quiet --universal --python-version 3.11 \
 	  --generate-hashes --no-header --no-annotate --output-file requirements/docs.txt -
 	echo sssom | $(BIN)/uv pip compile --quiet --universal --python-version 3.11 --generate-hashes --no-header \
 	  --no-annotate --output-file requirements/sssom.txt -

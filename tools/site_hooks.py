@@ -25,7 +25,7 @@ SEEDS = (
     "scenes/README.md",
 )
 """Documents outside docs that are in the navigation."""
-_FENCE = re.compile(r"^(```.*?^```$)", re.MULTILINE | re.DOTALL)
+_FENCE = re.compile(r"^( *```.*?^ *```$)", re.MULTILINE | re.DOTALL)
 _LINK = re.compile(r"(?<=\]\()(?![a-z]+:|#|/)([^)\s#]+)(?=[)\s#])")
 
 
