@@ -66,6 +66,11 @@ def _rooms(folder: Path) -> None:
         _write_room(folder / name)
 
 
+def _stores(folder: Path) -> None:
+    _rooms(folder)
+    usd2kg.write_graph(usd2kg.build(folder / "kitchen.usd").graph, folder / "kitchen.ttl")
+
+
 def _folder_of_rooms(folder: Path) -> None:
     for name in ("kitchen.usd", "hall/east.usd"):
         _write_room(folder / "scenes" / name)
@@ -168,7 +173,7 @@ PAGES: Mapping[str, Callable[[Path], None]] = {
     "docs/project_file.md": _project,
     "docs/python.md": _nothing,
     "docs/relations.md": _rooms,
-    "docs/stores.md": _rooms,
+    "docs/stores.md": _stores,
     "docs/studio.md": _nothing,
     "docs/validation.md": _validation,
     "docs/vocabulary.md": _nothing,
