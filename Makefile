@@ -5,7 +5,7 @@ BIN := .venv/bin
 READY := .venv/.ready
 
 .DEFAULT_GOAL := help
-.PHONY: help setup demo test test-slow test-studio web web-check data data-check owl-jars elk-jars fuseki-jar sssom-check-env sbom audit fuzz lint types layers accuracy accuracy-check wheel lock scene clean
+.PHONY: help setup demo test test-slow test-studio web web-check data data-check owl-jars elk-jars fuseki-jar sssom-check-env docs sbom audit fuzz lint types layers accuracy accuracy-check wheel lock scene clean
 
 help: ## Show this list
 	@grep -E '^[a-z-]+:.*##' $(MAKEFILE_LIST) | sed -E 's/:[^#]*## /\t/' | expand -t 12
@@ -64,6 +64,14 @@ audit: build/supply/bin/cyclonedx-py ## Look for known vulnerabilities of all pi
 	build/supply/bin/pip-audit --disable-pip --require-hashes --requirement requirements/dev.txt
 	cd web && npm audit --omit=dev
 
+build/docs/bin/mkdocs: requirements/docs.txt
+	$(PYTHON) -m venv build/docs
+	build/docs/bin/python -m pip install --quiet --require-hashes --no-deps --requirement requirements/docs.txt
+
+docs: build/docs/bin/mkdocs ## Build the site of the documentation into build/site and check its links
+	NO_MKDOCS_2_WARNING=1 build/docs/bin/mkdocs build --quiet --strict
+	build/docs/bin/python tools/check_site.py build/site
+
 sssom-check-env: ## Install the reference implementation of SSSOM into build/sssom, for make test-slow
 	$(PYTHON) -m venv build/sssom
 	build/sssom/bin/python -m pip install --quiet --require-hashes --no-deps --requirement requirements/sssom.txt
@@ -104,6 +112,8 @@ lock: $(READY) ## Pin the dependencies of pyproject.toml in requirements/, with 
 	  --output-file requirements/run.txt pyproject.toml
 	printf 'cyclonedx-bom\npip-audit\n' | $(BIN)/uv pip compile --quiet --universal --python-version 3.11 \
 	  --generate-hashes --no-header --no-annotate --output-file requirements/supply.txt -
+	printf 'black\nmkdocs\nmkdocs-material\nmkdocstrings-python\n' | $(BIN)/uv pip compile --quiet --universal --python-version 3.11 \
+	  --generate-hashes --no-header --no-annotate --output-file requirements/docs.txt -
 	echo sssom | $(BIN)/uv pip compile --quiet --universal --python-version 3.11 --generate-hashes --no-header \
 	  --no-annotate --output-file requirements/sssom.txt -
 

@@ -6,20 +6,25 @@ import json
 import logging
 import re
 import sys
+from collections.abc import Sequence
 from html.parser import HTMLParser
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import pytest
 
 from tests.evaluation.report_records import FIRST, NS, SECOND, tiny
 from usd2kg.errors import EvaluationError
 from usd2kg.evaluation import SceneResult
-from usd2kg.evaluation.report import write_report
+from usd2kg.evaluation.report import canvas, write_report
 from usd2kg.evaluation.report.blocks import Section, Table, printable
 from usd2kg.evaluation.report.canvas import check_matplotlib
 from usd2kg.evaluation.report.html import format_html
 from usd2kg.evaluation.report.latex import escape_latex, format_latex
 from usd2kg.evaluation.report.markdown import escape_markdown, format_markdown
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure as Canvas
 
 EVIL = "<script>alert(1)</script>|\n"
 EVIL_CLASS = "a|`b`$x$<b>&amp;\\_%[c](d)\x1b"
@@ -71,6 +76,17 @@ def read_page(text: str) -> Page:
     return page
 
 
+@pytest.fixture
+def svg_only(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Leave PNG and PDF empty, which take most of the time of a report."""
+    save = canvas._save
+
+    def save_svg(drawn: "Canvas", file_format: str, omitted: Sequence[str]) -> bytes:
+        return save(drawn, file_format, omitted) if file_format == "svg" else b""
+
+    monkeypatch.setattr(canvas, "_save", save_svg)
+
+
 class TestFiles:
     def test_writes_and_returns_all_files(self, tmp_path: Path):
         paths = write_report([tiny()], "A title", tmp_path / "new" / "folder")
@@ -89,7 +105,14 @@ class TestFiles:
         first = write_report([tiny(seconds=0.4)], "A title", tmp_path / "a")
         second = write_report([tiny(seconds=44.0)], "A title", tmp_path / "b")
         differing = {a.name for a, b in zip(first, second, strict=True) if a.read_bytes() != b.read_bytes()}
-        assert differing <= {"report.md", "report.html", "report.tex", "results.csv", "results.json", "cost.svg"}
+        assert differing <= {
+            "report.md",
+            "report.html",
+            "report.tex",
+            "results.csv",
+            "results.json",
+            *(f"cost.{end}" for end in ("svg", "png", "pdf")),
+        }
         ours, theirs = (folder.read_text("utf-8").split("\n") for folder in (first[0], second[0]))
         assert [line for line, other in zip(ours, theirs, strict=True) if line != other] == [
             "| Tiny | first | 4 | 0.1 | – | – | – |",
@@ -124,6 +147,7 @@ class TestFiles:
             assert ".svg" not in text
 
 
+@pytest.mark.usefixtures("svg_only")
 class TestMarkdown:
     def test_tables_read_back(self, tmp_path: Path):
         write_report([tiny()], "A title", tmp_path)
@@ -147,6 +171,7 @@ class TestMarkdown:
         assert escape_markdown("\\|") == "\\\\\\|"
 
 
+@pytest.mark.usefixtures("svg_only")
 class TestLatex:
     def test_tables_read_back(self, tmp_path: Path):
         write_report([tiny()], "A title", tmp_path)
@@ -177,13 +202,38 @@ class TestLatex:
     def test_escapes_special_characters(self, text: str, escaped: str):
         assert escape_latex(text) == escaped
 
+    def test_tables_and_plots_have_captions_and_labels(self, tmp_path: Path):
+        pytest.importorskip("matplotlib")
+        write_report([tiny()], "A title", tmp_path)
+        text = (tmp_path / "report.tex").read_text("utf-8")
+        floats = re.findall(r"\\begin\{(table|figure)\}\[htbp\]\n(.*?)\\end\{\1\}", text, re.DOTALL)
+        assert {kind for kind, _ in floats} == {"table", "figure"}
+        for kind, body in floats:
+            assert re.search(r"^\\caption\{.+\.\}$", body, re.MULTILINE)
+            assert f"\\label{{{kind[:3]}:usd2kg-" in body
+        labels = re.findall(r"\\label\{(.*?)\}", text)
+        assert len(labels) == len(set(labels)) == len(floats)
+        pictures = re.findall(r"\\includegraphics\[width=\\linewidth\]\{(.*?)\}", text)
+        assert pictures and all((tmp_path / picture).is_file() for picture in pictures)
+        assert "\\caption{Tiny: exact match by naming regime; lines are 95 \\% intervals" in text
+
+    def test_the_note_of_a_table_is_in_its_caption(self):
+        table = Table("A title", ("n",), (("1",),), note="A caveat")
+        assert "\\caption{A title. A caveat.}\n\\begin{tabular}" in format_latex("t", [Section("s", (table,))])
+
+    def test_breaks_the_page_after_many_floats(self):
+        tables = tuple(Table("t", ("n",), (("1",),)) for _ in range(40))
+        assert format_latex("t", [Section("s", tables)]).count("\\clearpage") == 2
+
     def test_splits_long_tables(self):
         rows = tuple((str(i),) for i in range(90))
         text = format_latex("t", [Section("s", (Table("t", ("n",), rows),))])
         assert text.count(r"\begin{tabular}") == 3
+        assert re.findall(r"\(\d of 3\)", text) == ["(1 of 3)", "(2 of 3)", "(3 of 3)"]
         assert re.findall(r"^(\d+) ", text, re.MULTILINE) == [str(i) for i in range(90)]
 
 
+@pytest.mark.usefixtures("svg_only")
 class TestHtml:
     @pytest.mark.parametrize("results", [[tiny()], [evil()]])
     def test_page_is_self_contained(self, results: list[SceneResult], tmp_path: Path):
@@ -223,6 +273,7 @@ class TestHtml:
         assert "<summary>long, 1 rows</summary>" in text
 
 
+@pytest.mark.usefixtures("svg_only")
 class TestData:
     def test_csv_has_one_row_per_run(self, tmp_path: Path):
         write_report([tiny({("first", "semantic"): FIRST, ("first", "hierarchy only"): SECOND})], "t", tmp_path)

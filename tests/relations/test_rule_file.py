@@ -172,7 +172,7 @@ class TestPage:
         assert not [rule for rule in ids if isinstance(rule, str) and f"`{rule}`" not in self.PAGE]
 
     def test_documented_example_is_valid(self, rules_file):
-        example = self.PAGE.partition("```toml\n")[2].partition("```")[0]
+        example = self.PAGE.partition('```toml title="my_rules.toml"\n')[2].partition("```")[0]
         rules = load_rules(rules_file(example))
         assert (rules.on.rule, rules.near.most) == ("lab-on/1", 5)
         assert "=soma:Box" in rules.classes.closed

@@ -23,14 +23,16 @@ class Table:
 
 @dataclass(frozen=True, slots=True)
 class Figure:
-    """A plot."""
+    """A plot in several formats."""
 
-    file: str
-    """Name of its file in the folder `plots`."""
+    name: str
+    """Name of its files in the folder `plots`, without an ending."""
     caption: str
     """Caption, also the text alternative of the image."""
     svg: str
     """One `svg` element."""
+    png: bytes
+    pdf: bytes
 
 
 @dataclass(frozen=True, slots=True)

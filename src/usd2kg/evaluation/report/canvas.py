@@ -1,8 +1,8 @@
-"""Matplotlib canvases with fixed settings, rendered as deterministic SVG. Matplotlib loads on first use."""
+"""Matplotlib canvases with fixed settings, as deterministic SVG, PNG and PDF. Matplotlib loads on first use."""
 
 import io
 import warnings
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from typing import TYPE_CHECKING, Any
 
@@ -19,10 +19,18 @@ _COLORS = ("#0072B2", "#E69F00", "#009E73", "#CC79A7", "#56B4E9", "#D55E00", "#7
 """Palette of Okabe and Ito, distinguishable with colour vision deficiencies."""
 _MARKERS = ("o", "s", "^", "D", "v", "P", "X", "*")
 _LONGEST_LABEL = 40
+_LETTERS_PER_INCH = 12
+"""At the size of the font below."""
+_SYMBOL_WIDTH = 6
+"""Letters that a symbol of a legend and the space beside it take."""
 _SETTINGS: Mapping[Any, Any] = {
     "svg.hashsalt": "usd2kg",
     # Keep text as text: sharp, searchable, and rendered with the viewer's fonts if this font lacks a script.
     "svg.fonttype": "none",
+    # Fonts as TrueType: publishers reject the default, Type 3.
+    "pdf.fonttype": 42,
+    "savefig.bbox": "tight",
+    "savefig.dpi": 200,
     # A dollar sign in a name must not start a formula.
     "text.parse_math": False,
     "font.family": ["DejaVu Sans", "sans-serif"],
@@ -76,12 +84,23 @@ def open_canvas(
         yield canvas, list(canvas.subplots(*panels, squeeze=False).flat)
 
 
-def to_figure(canvas: "Canvas", file: str, caption: str) -> Figure:
-    """Return the canvas as SVG without a date."""
-    text = io.StringIO()
-    canvas.savefig(text, format="svg", metadata={"Date": None, "Creator": None, "Format": None, "Type": None})
-    svg = text.getvalue()
-    return Figure(file, printable(caption), svg[svg.index("<svg") :].strip())
+def to_figure(canvas: "Canvas", name: str, caption: str) -> Figure:
+    """Return the canvas in all formats, without a date. Pictures are as large as what is drawn, legends included."""
+    svg = _save(canvas, "svg", ("Date", "Creator", "Format", "Type")).decode("utf-8")
+    return Figure(
+        name,
+        printable(caption),
+        svg[svg.index("<svg") :].strip(),
+        _save(canvas, "png", ("Software",)),
+        _save(canvas, "pdf", ("CreationDate", "Creator", "Producer")),
+    )
+
+
+def _save(canvas: "Canvas", file_format: str, omitted: Sequence[str]) -> bytes:
+    """Return the canvas as a file without some metadata."""
+    file = io.BytesIO()
+    canvas.savefig(file, format=file_format, metadata=dict.fromkeys(omitted))
+    return file.getvalue()
 
 
 def label_text(text: str, longest: int = _LONGEST_LABEL) -> str:
@@ -92,7 +111,8 @@ def label_text(text: str, longest: int = _LONGEST_LABEL) -> str:
 
 
 def add_legend(canvas: "Canvas", *panels: "Axes") -> None:
-    """Add one legend for several panels above them."""
+    """Add one legend for several panels above them, with as many columns as fit the width."""
     entries = [zip(*axes.get_legend_handles_labels(), strict=True) for axes in panels]
     by_label = {label: handle for panel in entries for handle, label in panel}
-    canvas.legend([*by_label.values()], [*by_label], loc="outside upper left", ncols=4)
+    fitting = int(canvas.get_figwidth() * _LETTERS_PER_INCH / (max(map(len, by_label), default=0) + _SYMBOL_WIDTH))
+    canvas.legend([*by_label.values()], [*by_label], loc="outside upper left", ncols=max(1, min(fitting, 4)))

@@ -33,7 +33,7 @@ def _block(block: str | Table | Figure) -> str:
     if isinstance(block, Table):
         return _table(block)
     if isinstance(block, Figure):
-        return f"![{escape_markdown(block.caption)}](plots/{block.file})"
+        return f"![{escape_markdown(block.caption)}](plots/{block.name}.svg)"
     return escape_markdown(block)
 
 

@@ -42,8 +42,9 @@ _SVG_HEAD = '<?xml version="1.0" encoding="utf-8"?>\n'
 def write_report(results: list[SceneResult], title: str, folder: Path) -> list[Path]:
     """Write the report on `results` into `folder`, which is created if missing, and return the paths of its files.
 
-    The files are report.md, report.html, report.tex (the tables), results.csv, results.json and plots/*.svg. Without
-    matplotlib, a remark replaces the plots. Except for run times, output is deterministic.
+    The files are report.md, report.html, report.tex (tables and figures), results.csv, results.json, and each plot as
+    SVG, PNG and PDF in the folder plots. Without matplotlib, a remark replaces the plots. Except for run times, output
+    is deterministic.
 
     Raises:
         EvaluationError: there are no results.
@@ -59,17 +60,21 @@ def write_report(results: list[SceneResult], title: str, folder: Path) -> list[P
         "report.tex": format_latex(title, sections),
         "results.csv": format_csv(results),
         "results.json": format_json(title, results),
-        **{f"plots/{figure.file}": _SVG_HEAD + figure.svg + "\n" for figure in figures.values()},
     }
-    return [_write(folder / name, text) for name, text in texts.items()]
+    files = {name: text.encode("utf-8") for name, text in texts.items()}
+    for figure in figures.values():
+        files[f"plots/{figure.name}.svg"] = f"{_SVG_HEAD}{figure.svg}\n".encode()
+        files[f"plots/{figure.name}.png"] = figure.png
+        files[f"plots/{figure.name}.pdf"] = figure.pdf
+    return [_write(folder / name, content) for name, content in files.items()]
 
 
-def _write(path: Path, text: str) -> Path:
+def _write(path: Path, content: bytes) -> Path:
     try:
         path.parent.mkdir(parents=True, exist_ok=True)
     except OSError as error:
         raise OutputError(f"{path.parent}: cannot be created ({error.strerror}); choose another folder") from error
-    write_whole(path, text.encode("utf-8"))
+    write_whole(path, content)
     return path
 
 
@@ -92,11 +97,11 @@ def _draw(results: Sequence[SceneResult]) -> tuple[_Figures, str]:
     except EvaluationError as error:
         logger.warning("report without plots: %s", error)
         return {}, f"Plots are omitted: {error}."
-    found: dict[tuple[str, int], Figure | None] = {("cost", 0): plots.plot_cost(results, "cost.svg")}
+    found: dict[tuple[str, int], Figure | None] = {("cost", 0): plots.plot_cost(results, "cost")}
     for index, result in enumerate(results):
         for kind, plot in _SCENE_PLOTS.items():
             # Numbered, since a scene name may not be a valid file name.
-            found[kind, index] = plot(result, f"scene{index + 1}_{kind}.svg")
+            found[kind, index] = plot(result, f"scene{index + 1}_{kind}")
     return {key: figure for key, figure in found.items() if figure is not None}, ""
 
 
