@@ -5,7 +5,7 @@ BIN := .venv/bin
 READY := .venv/.ready
 
 .DEFAULT_GOAL := help
-.PHONY: help setup demo test test-slow test-studio web web-check data data-check owl-jars elk-jars fuseki-jar sssom-check-env docs sbom audit fuzz lint types layers accuracy accuracy-check wheel lock scene clean
+.PHONY: help setup demo test test-docs test-slow test-studio web web-check data data-check owl-jars elk-jars fuseki-jar sssom-check-env docs sbom audit fuzz lint types layers accuracy accuracy-check wheel lock scene clean
 
 help: ## Show this list
 	@grep -E '^[a-z-]+:.*##' $(MAKEFILE_LIST) | sed -E 's/:[^#]*## /\t/' | expand -t 12
@@ -27,6 +27,9 @@ test: $(READY) ## Run the tests
 
 test-slow: $(READY) ## Run the slow tests
 	$(BIN)/python -m pytest -q -m slow
+
+test-docs: $(READY) ## Run the code blocks of the documentation
+	$(BIN)/python -m pytest -q -n auto --dist load -m docs tests
 
 test-studio: $(READY) web ## Run the tests of the studio, and those of its page and the query page in Chromium (CHROMIUM, or on the path)
 	$(BIN)/python -m pytest -q -n auto --dist loadfile -m studio tests/studio tests/endpoint

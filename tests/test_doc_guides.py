@@ -7,6 +7,8 @@ import pytest
 from tests.doc_console import run_page
 from tests.doc_pages import GUIDES, ROOT
 
+pytestmark = pytest.mark.docs
+
 
 @pytest.mark.parametrize("page", GUIDES)
 def test_the_code_blocks_run(page: str, tmp_path: Path) -> None:

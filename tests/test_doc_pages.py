@@ -10,6 +10,8 @@ from usd2kg.evaluation import read_matrix
 from usd2kg.relations import load_rules
 from usd2kg.validation import read_rules
 
+pytestmark = pytest.mark.docs
+
 
 @pytest.mark.parametrize("page", PAGES)
 def test_the_code_blocks_run(page: str, tmp_path: Path) -> None:
