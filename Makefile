@@ -5,7 +5,7 @@ BIN := .venv/bin
 READY := .venv/.ready
 
 .DEFAULT_GOAL := help
-.PHONY: help setup demo test test-docs test-slow test-studio web web-check data data-check owl-jars elk-jars fuseki-jar sssom-check-env docs sbom audit fuzz lint types layers accuracy accuracy-check wheel lock scene clean
+.PHONY: help setup demo test test-docs test-slow test-studio web web-check data data-check owl-jars elk-jars fuseki-jar sssom-check-env docs sbom audit fuzz lint types layers accuracy accuracy-check wheel compatibility lock scene clean
 
 help: ## Show this list
 	@grep -E '^[a-z-]+:.*##' $(MAKEFILE_LIST) | sed -E 's/:[^#]*## /\t/' | expand -t 12
@@ -107,6 +107,9 @@ accuracy-check: $(READY) ## Check the stored figures; list the scenes that canno
 wheel: $(READY) web ## Build the wheel into dist/, with the page of the studio
 	@rm -rf dist
 	$(BIN)/uv build --quiet --wheel --no-build-isolation --python $(BIN)/python
+
+compatibility: wheel ## Try the wheel with Python 3.11 to 3.13 (PYTHONS), oldest and newest dependencies
+	$(BIN)/python -m tools.try_wheel dist/*.whl $(PYTHONS)
 
 lock: $(READY) ## Pin the dependencies of pyproject.toml in requirements/, with hashes
 	$(BIN)/uv pip compile --quiet --universal --python-version 3.11 --generate-hashes --no-header --no-annotate \
