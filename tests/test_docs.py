@@ -64,6 +64,24 @@ def test_examples_of_the_validation_page(tmp_path: Path) -> None:
     run_python(DOCS / "validation.md", tmp_path)
 
 
+def test_examples_of_the_robots_page(tmp_path: Path) -> None:
+    shutil.copytree(demo_scene().parent, tmp_path, dirs_exist_ok=True)
+    run_examples(DOCS / "robots.md", tmp_path)
+    (record,) = read_blocks(DOCS / "robots.md", "yaml")
+    assert record in (tmp_path / "tf/tf_static.yaml").read_text("utf-8")
+    (relation,) = read_blocks(DOCS / "robots.md", "json")
+    assert relation.strip() in (tmp_path / "ros2/relations.json").read_text("utf-8")
+    if shutil.which("swipl") is None:
+        pytest.skip("needs SWI-Prolog: apt-get install swi-prolog-nox")
+    shutil.copy(ROOT / "integrations/knowrob/questions.pl", tmp_path)
+    questions = [block for block in read_blocks(DOCS / "robots.md", "console") if block.startswith("$ swipl ")]
+    assert len(questions) > 10
+    for block in questions:
+        command, *shown = block.removeprefix("$ ").splitlines()
+        done = subprocess.run(shlex.split(command), check=True, cwd=tmp_path, capture_output=True, encoding="utf-8")
+        assert matches(shown, done.stdout.splitlines()), done.stdout
+
+
 def test_commands_of_the_relations_page(tmp_path: Path, write_room: Callable[[str], Path]) -> None:
     write_room("kitchen.usda")
     (rules,) = read_blocks(DOCS / "relations.md", "toml")
