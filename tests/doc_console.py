@@ -19,6 +19,7 @@ from pathlib import Path
 from typing import Any, NamedTuple
 
 import pyoxigraph as ox
+import yaml
 
 from usd2kg.graph.vocabulary import PREFIXES
 from usd2kg.query import load_graph
@@ -141,6 +142,8 @@ def _read(block: Block) -> str:
         tomllib.loads(block.text)
     elif block.language == "json":
         json.loads(block.text)
+    elif block.language == "yaml":
+        yaml.safe_load(block.text)
     elif block.language == "turtle":
         head = "".join(f"@prefix {name}: <{iri}> .\n" for name, iri in {"": "https://example.org/", **PREFIXES}.items())
         assert list(ox.parse(head + block.text, format=ox.RdfFormat.TURTLE)), block.text

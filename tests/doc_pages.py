@@ -5,6 +5,7 @@ from collections.abc import Callable, Mapping
 from pathlib import Path
 
 import numpy as np
+import pytest
 import trimesh
 from pxr import Gf, Sdf, Usd, UsdGeom
 
@@ -59,6 +60,13 @@ def _kitchen(folder: Path) -> None:
 
 def _kitchen_graph(folder: Path) -> None:
     usd2kg.write_graph(usd2kg.build(demo_scene()).graph, folder / "kitchen.ttl")
+
+
+def _robots(folder: Path) -> None:
+    if shutil.which("swipl") is None:
+        pytest.skip("needs SWI-Prolog: apt-get install swi-prolog-nox")
+    _kitchen(folder)
+    shutil.copy(ROOT / "integrations/knowrob/questions.pl", folder)
 
 
 def _rooms(folder: Path) -> None:
@@ -173,6 +181,7 @@ PAGES: Mapping[str, Callable[[Path], None]] = {
     "docs/project_file.md": _project,
     "docs/python.md": _nothing,
     "docs/relations.md": _rooms,
+    "docs/robots.md": _robots,
     "docs/stores.md": _stores,
     "docs/studio.md": _nothing,
     "docs/validation.md": _validation,

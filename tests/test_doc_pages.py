@@ -28,10 +28,18 @@ def _check_label_layer(folder: Path) -> None:
     assert matches(block.text.splitlines(), (folder / "house.labels.usda").read_text("utf-8").rstrip().splitlines())
 
 
+def _check_messages(folder: Path) -> None:
+    page = ROOT / "docs/robots.md"
+    for language, file in (("yaml", "tf/tf_static.yaml"), ("json", "ros2/relations.json")):
+        (shown,) = read_blocks(page, language)
+        assert shown.text.strip() in (folder / file).read_text("utf-8")
+
+
 _CHECKS = {
     "docs/evaluation.md": lambda folder: read_matrix(folder / "matrix.toml"),
     "docs/labels.md": _check_label_layer,
     "docs/relations.md": lambda folder: load_rules(folder / "my_rules.toml"),
+    "docs/robots.md": _check_messages,
     "docs/validation.md": lambda folder: read_rules(folder / "rules.toml"),
 }
 """Page → what else must hold after its blocks have run."""

@@ -101,7 +101,25 @@ class TestExport:
     def test_rejects_another_database(self, run: Run, graph: Path):
         done = run("graph", "export", graph, "--to", "oracle")
         assert done.code == 2
-        assert "expected neo4j" in done.err
+        assert "expected one of neo4j, tf, ros2" in done.err
+
+    @pytest.mark.parametrize(
+        ("target", "files", "printed"),
+        [
+            ("tf", ["frames.json", "tf_static.json", "tf_static.yaml"], "transforms written to g-"),
+            ("ros2", ["detections.json", "relations.json"], "detections and"),
+        ],
+    )
+    def test_writes_messages_of_ros(self, run: Run, graph: Path, target: str, files: list[str], printed: str):
+        done = run("graph", "export", graph, "--to", target, "--frame", "site", "-o", f"g-{target}")
+        assert (done.code, printed in done.err) == (0, True)
+        assert sorted(path.name for path in Path(f"g-{target}").iterdir()) == files
+        assert '"frame_id": "site"' in Path(f"g-{target}", files[0]).read_text("utf-8")
+
+    def test_the_frame_is_for_messages_only(self, run: Run, graph: Path):
+        done = run("graph", "export", graph, "--frame", "site")
+        assert done.code == 2
+        assert "--frame is for --to tf and --to ros2" in done.err
 
     def test_rejects_a_file_as_output_folder(self, run: Run, graph: Path):
         done = run("graph", "export", graph, "-o", graph)

@@ -1,7 +1,8 @@
 """usd2kg graph: diagrams of a graph, and conversion to other formats."""
 
+from collections.abc import Callable
 from pathlib import Path
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 from typer import Argument, Option
@@ -10,6 +11,9 @@ from usd2kg.cli.options.stores import GraphSource, SceneName
 from usd2kg.cli.output import notify
 from usd2kg.errors import GraphError, OutputError
 from usd2kg.files import check_apart, check_writable, write_whole
+
+if TYPE_CHECKING:
+    from usd2kg.graph import PropertyGraph
 
 __all__ = ["app"]
 
@@ -85,24 +89,68 @@ def convert_command(
 @app.command("export")
 def export_command(
     graph: Annotated[Path, Argument(metavar="GRAPH", help="Graph written by usd2kg build.")],
-    target: Annotated[str, Option("--to", help="Database to export to: neo4j.")] = "neo4j",
+    target: Annotated[
+        str,
+        Option(
+            "--to",
+            help="What to export: neo4j (a property graph), tf (static transforms of ROS 2) or ros2 (detections and "
+            "their relations).",
+        ),
+    ] = "neo4j",
     output: Annotated[
-        Path | None, Option("--output", "-o", help="Folder to write; default: GRAPH-neo4j in the current folder.")
+        Path | None, Option("--output", "-o", help="Folder to write; default: GRAPH-TARGET in the current folder.")
+    ] = None,
+    frame: Annotated[
+        str | None, Option("--frame", help="Id of the world frame, for tf and ros2; default: map.")
     ] = None,
 ) -> None:
-    """Write a graph as a property graph: nodes.csv, relationships.csv and a script that loads them."""
-    from usd2kg.graph import read_document, read_property_graph, write_neo4j  # noqa: PLC0415
+    """Write a graph for another system: a property graph for Neo4j, or messages of ROS 2."""
+    from usd2kg.graph import read_document, read_property_graph  # noqa: PLC0415
+
+    exporter = _EXPORTERS.get(target)
+    if exporter is None:
+        names = ", ".join(_EXPORTERS)
+        raise GraphError(f"--to {target!r} is unknown; expected one of {names}; usd2kg graph convert writes RDF")
+    if frame is not None and target == "neo4j":
+        raise GraphError("--frame is for --to tf and --to ros2")
+    folder = output or Path(f"{graph.stem}-{target}")
+    if folder.exists() and not folder.is_dir():
+        raise OutputError(f"{folder}: is not a folder; expected a folder for the exported files")
+    notify(exporter(lambda: read_property_graph(read_document(graph)), graph, folder, frame or "map"))
+
+
+_Read = Callable[[], "PropertyGraph"]
+
+
+def _export_neo4j(read: _Read, source: Path, folder: Path, _frame: str) -> str:
+    from usd2kg.graph import write_neo4j  # noqa: PLC0415
     from usd2kg.graph.export.neo4j import NEO4J_FILES  # noqa: PLC0415
 
-    if target != "neo4j":
-        raise GraphError(f"--to {target!r} is unknown; expected neo4j; usd2kg graph convert writes RDF and GraphML")
-    folder = output or Path(f"{graph.stem}-neo4j")
-    if folder.exists() and not folder.is_dir():
-        raise OutputError(f"{folder}: is not a folder; expected a folder for the files of the database")
-    check_apart((folder / name for name in NEO4J_FILES), [graph])
-    exported = read_property_graph(read_document(graph))
+    check_apart((folder / name for name in NEO4J_FILES), [source])
+    exported = read()
     write_neo4j(exported, folder)
-    notify(
+    return (
         f"{len(exported.nodes)} nodes and {len(exported.edges)} relationships written to {folder}; "
         "load.cypher loads them"
     )
+
+
+def _export_tf(read: _Read, source: Path, folder: Path, frame: str) -> str:
+    from usd2kg.graph import write_tf  # noqa: PLC0415
+    from usd2kg.graph.export.ros.transforms import TF_FILES  # noqa: PLC0415
+
+    check_apart((folder / name for name in TF_FILES), [source])
+    count = write_tf(read(), folder, frame)
+    return f"{count} transforms written to {folder}: {', '.join(TF_FILES)}"
+
+
+def _export_ros2(read: _Read, source: Path, folder: Path, frame: str) -> str:
+    from usd2kg.graph import write_ros2  # noqa: PLC0415
+    from usd2kg.graph.export.ros.detections import ROS2_FILES  # noqa: PLC0415
+
+    check_apart((folder / name for name in ROS2_FILES), [source])
+    detections, relations = write_ros2(read(), folder, frame)
+    return f"{detections} detections and {relations} relations written to {folder}: {', '.join(ROS2_FILES)}"
+
+
+_EXPORTERS = {"neo4j": _export_neo4j, "tf": _export_tf, "ros2": _export_ros2}

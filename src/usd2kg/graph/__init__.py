@@ -9,6 +9,8 @@ if TYPE_CHECKING:
     from usd2kg.graph.declarations import VOCABULARY_IRI, vocabulary_text
     from usd2kg.graph.export.neo4j import write_neo4j
     from usd2kg.graph.export.property_graph import PropertyEdge, PropertyGraph, PropertyNode, read_property_graph
+    from usd2kg.graph.export.ros.detections import write_ros2
+    from usd2kg.graph.export.ros.transforms import write_tf
     from usd2kg.graph.export.sssom import UNSPECIFIED_LICENSE, format_sssom
     from usd2kg.graph.formats.serialize import GRAPH_FORMATS, GraphFormat, graph_format, serialize_graph, write_graph
     from usd2kg.graph.import_closure import merge_imports
@@ -48,6 +50,8 @@ __all__ = [
     "vocabulary_text",
     "write_graph",
     "write_neo4j",
+    "write_ros2",
+    "write_tf",
 ]
 
 __getattr__ = lazy_names(
@@ -84,5 +88,7 @@ __getattr__ = lazy_names(
         "vocabulary_text": "declarations",
         "write_graph": "formats.serialize",
         "write_neo4j": "export.neo4j",
+        "write_ros2": "export.ros.detections",
+        "write_tf": "export.ros.transforms",
     },
 )
