@@ -4,16 +4,26 @@ from pathlib import Path
 
 import pytest
 
-from tools.build_data import BuiltFile, build_files, check_listed, convert_files, find_differences
-from tools.data_files import KNOWLEDGE, SourceError
+from tools.build_data import BuiltFile, build_files, check_listed, convert_files, find_differences, list_licences
+from tools.data_files import DATA, KNOWLEDGE, SourceError
 from tools.settings_files import convert_settings
 from tools.source_schema import Column, Schema, Source, read_schema, validate_source
 from tools.word_lists import convert_word_lists
+from usd2kg.knowledge import read_rows
 
 
 def test_committed_data_matches_the_sources():
     schema = read_schema(KNOWLEDGE / "schema.toml")
-    assert find_differences([*convert_files(), *build_files(schema)], schema.data) == []
+    converted = [*convert_files()]
+    licences = list_licences(schema, [file.name for file in converted])
+    assert find_differences([*converted, licences, *build_files(schema)], schema.data) == []
+
+
+def test_every_file_of_the_data_has_a_licence():
+    listed = {row["file"]: row["licence"] for row in read_rows("licences.csv")}
+    assert set(listed) == {path.relative_to(DATA).as_posix() for path in DATA.rglob("*") if path.is_file()}
+    assert listed["places.ttl"] == "CC0-1.0"
+    assert listed["wordnet.txt.gz"].startswith("WordNet-3.0")
 
 
 def test_reports_files_that_differ_or_have_no_source(tmp_path):
@@ -45,7 +55,8 @@ def test_every_source_and_data_file_has_a_description_an_origin_and_a_licence(tm
 
 SIZES = Source(
     "sizes.csv",
-    "sizes.csv",
+    {},
+    ("sizes.csv",),
     ("noun",),
     (
         Column("noun", "text", "", pattern="[a-z ]+"),

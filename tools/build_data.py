@@ -7,14 +7,14 @@ differs from what would be written. Data of third parties is not built here: `[d
 """
 
 import sys
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from importlib import import_module
 from pathlib import Path
 from typing import NamedTuple
 
-from tools.data_files import DATA, KNOWLEDGE, ROOT, SourceError, write_data_file
+from tools.data_files import DATA, KNOWLEDGE, ROOT, SourceError, csv_bytes, write_data_file
 from tools.settings_files import convert_settings
-from tools.source_schema import Schema, read_schema, validate_source
+from tools.source_schema import FACTS, Schema, read_schema, validate_source
 from tools.word_lists import convert_word_lists
 
 BUILDERS = {
@@ -29,6 +29,8 @@ BUILDERS = {
 All other sources are copied, or are the input of a command. The modules are imported late, since usd2kg reads settings
 and word lists on import.
 """
+
+LICENCES = "licences.csv"
 
 
 class BuiltFile(NamedTuple):
@@ -49,6 +51,22 @@ def convert_files() -> Iterator[BuiltFile]:
         yield BuiltFile(f"words/{path.stem}.json", convert_word_lists(path))
     for path in sorted((KNOWLEDGE / "settings").glob("*.toml")):
         yield BuiltFile(f"settings/{path.stem}.json", convert_settings(path))
+
+
+def list_licences(schema: Schema, names: Iterable[str]) -> BuiltFile:
+    """Return the table of the data files with their origin and licence, for `usd2kg licences`.
+
+    Args:
+        schema: the sources, and the files of others.
+        names: the word lists and settings, which were written for this project.
+    """
+    facts = {name: source.facts for source in schema.sources.values() for name in source.builds}
+    facts |= schema.data
+    own = {"description": "Word lists or settings.", "origin": "written for this project", "licence": "Apache-2.0"}
+    facts |= dict.fromkeys(names, own)
+    facts[LICENCES] = {**own, "description": "This table."}
+    rows = [[name, *(facts[name][key] for key in FACTS)] for name in sorted(facts)]
+    return BuiltFile(LICENCES, csv_bytes(("file", *FACTS), rows))
 
 
 def build_files(schema: Schema) -> Iterator[BuiltFile]:
@@ -103,7 +121,7 @@ def find_differences(built: list[BuiltFile], others: Mapping[str, object], data:
     return problems
 
 
-def write_files(files: Iterator[BuiltFile]) -> None:
+def write_files(files: Iterable[BuiltFile]) -> None:
     """Write the files that differ."""
     for name, content in files:
         path = DATA / name
@@ -116,10 +134,14 @@ def main() -> None:
     try:
         schema = read_schema(KNOWLEDGE / "schema.toml")
         if "--check" in sys.argv[1:]:
-            if problems := find_differences([*convert_files(), *build_files(schema)], schema.data):
+            converted = [*convert_files()]
+            licences = list_licences(schema, [file.name for file in converted])
+            if problems := find_differences([*converted, licences, *build_files(schema)], schema.data):
                 raise SystemExit("\n".join(["src/usd2kg/data is not what knowledge/ gives; run make data:", *problems]))
         else:
-            write_files(convert_files())
+            converted = [*convert_files()]
+            write_files(converted)
+            write_files([list_licences(schema, [file.name for file in converted])])
             write_files(build_files(schema))
     except SourceError as error:
         raise SystemExit(str(error)) from error

@@ -12,6 +12,8 @@ from typing import Any
 from tools.data_files import SourceError
 
 TYPES = ("text", "number", "names")
+FACTS = ("description", "origin", "licence")
+"""What each entry states in words."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -64,6 +66,8 @@ class Source:
     """One hand-written file."""
 
     name: str
+    facts: Mapping[str, str]
+    """Its description, origin and licence."""
     builds: tuple[str, ...]
     """Names of the data files that are made from it; its own name if it is copied."""
     key: tuple[str, ...]
@@ -89,7 +93,7 @@ def read_schema(path: Path) -> Schema:
     """
     tables = tomllib.loads(path.read_text("utf-8"))
     for name, table in (*tables["source"].items(), *tables["data"].items()):
-        if missing := [key for key in ("description", "origin", "licence") if not table.get(key)]:
+        if missing := [key for key in FACTS if not table.get(key)]:
             raise SourceError(path, f"{name}: {', '.join(missing)} missing")
     return Schema({name: _source(path, name, table) for name, table in tables["source"].items()}, tables["data"])
 
@@ -99,7 +103,8 @@ def _source(path: Path, name: str, table: Mapping[str, Any]) -> Source:
     key = tuple(table.get("key", ()))
     if bool(columns) != name.endswith(".csv") or not set(key) <= {column.name for column in columns}:
         raise SourceError(path, f"{name}: expected columns and a key of them for CSV files, and for these only")
-    return Source(name, tuple(table.get("builds", [name])), key, columns)
+    facts = {key: table[key] for key in FACTS}
+    return Source(name, facts, tuple(table.get("builds", [name])), key, columns)
 
 
 def _column(path: Path, source: str, name: str, fields: dict[str, Any]) -> Column:

@@ -26,6 +26,7 @@ def texts(svg: str) -> list[str]:
     return [element.text or "" for element in ET.fromstring(svg).iter(f"{SVG}text")]
 
 
+@pytest.mark.usefixtures("svg_only")
 def test_all_plots_are_valid_svg(tmp_path: Path):
     write_report([full(), tiny()], "A title", tmp_path)
     names = {path.name for path in (tmp_path / "plots").glob("*.svg")}
@@ -40,6 +41,7 @@ def test_all_plots_are_valid_svg(tmp_path: Path):
         assert not list(root.iter(f"{SVG}script"))
 
 
+@pytest.mark.usefixtures("svg_only")
 def test_plots_are_deterministic_without_a_date():
     first, second = (plots.plot_accuracy(full(), "a").svg for _ in range(2))
     assert first == second
@@ -78,11 +80,13 @@ def test_long_legends_are_not_cut():
     assert left > 0 and top > 0 and right < image.width and bottom < image.height
 
 
+@pytest.mark.usefixtures("svg_only")
 def test_accuracy_plot_shows_the_values_of_the_table():
     shown = texts(plots.plot_accuracy(tiny(), "a").svg)
     assert {"50", "25", "semantic", "first", "second"} <= set(shown)
 
 
+@pytest.mark.usefixtures("svg_only")
 def test_conditions_that_were_not_run_have_no_bar():
     result = tiny({("first", "semantic"): FIRST, ("second", "geometry only"): FIRST, ("first", "name only"): SECOND})
     accuracy, ablation = plots.plot_accuracy(result, "a"), plots.plot_ablation(result, "a")
@@ -92,6 +96,7 @@ def test_conditions_that_were_not_run_have_no_bar():
     assert texts(ablation.svg).count("0") == 2, "only as the first tick of each axis"
 
 
+@pytest.mark.usefixtures("svg_only")
 def test_confusion_plot_sorts_classes_by_hierarchy():
     figure = plot_confusion(tiny(), "a")
     assert figure is not None
@@ -100,6 +105,7 @@ def test_confusion_plot_sorts_classes_by_hierarchy():
     assert "no answer" not in texts(figure.svg)
 
 
+@pytest.mark.usefixtures("svg_only")
 def test_confusion_plot_omits_unconfused_classes_if_there_are_many():
     many = {f"Class{i}": "Artifact" for i in range(60)}
     gold = {f"/W/c{i}": f"Class{i}" for i in range(60)}
@@ -110,6 +116,7 @@ def test_confusion_plot_omits_unconfused_classes_if_there_are_many():
     assert "58 classes that are never confused are omitted" in figure.caption
 
 
+@pytest.mark.usefixtures("svg_only")
 def test_no_confusion_plot_for_many_classes_without_confusion():
     many = {f"Class{i}": "Artifact" for i in range(60)}
     gold = {f"/W/c{i}": f"Class{i}" for i in range(60)}
@@ -118,6 +125,7 @@ def test_no_confusion_plot_for_many_classes_without_confusion():
     assert plot_confusion(result, "a") is None
 
 
+@pytest.mark.usefixtures("svg_only")
 def test_plots_without_any_answer():
     result = tiny({("first", "semantic"): {}})
     assert plots.plot_reliability(result, "a") is None
@@ -127,6 +135,7 @@ def test_plots_without_any_answer():
     assert "no answer" in texts(confusion.svg)
 
 
+@pytest.mark.usefixtures("svg_only")
 def test_no_plots_without_runs_under_authored_names():
     result = tiny({("first", "opaque"): SECOND})
     assert plot_confusion(result, "a") is None
@@ -134,6 +143,7 @@ def test_no_plots_without_runs_under_authored_names():
     assert plots.plot_ablation(result, "a") is None
 
 
+@pytest.mark.usefixtures("svg_only")
 def test_cost_plot_has_decimal_tick_labels():
     figure = plots.plot_cost([tiny(seconds=0.0004)], "a")
     assert figure is not None
@@ -143,6 +153,7 @@ def test_cost_plot_has_decimal_tick_labels():
 
 
 @pytest.mark.parametrize("name", ["$\\frac$", "_hidden", "台所\x00", "a" * 300, "</text><script>"])
+@pytest.mark.usefixtures("svg_only")
 def test_draws_any_name(name: str):
     result = tiny({(name, "semantic"): FIRST}, name=name)
     for figure in (plots.plot_accuracy(result, "a"), plots.plot_cost([result], "a")):
@@ -151,6 +162,7 @@ def test_draws_any_name(name: str):
         assert any(text.strip(" …") and text.strip(" …")[:2] in name for text in texts(figure.svg))
 
 
+@pytest.mark.usefixtures("svg_only")
 def test_ignores_the_users_matplotlib_settings():
     import matplotlib as mpl  # noqa: PLC0415
 

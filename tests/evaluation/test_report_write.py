@@ -6,7 +6,6 @@ import json
 import logging
 import re
 import sys
-from collections.abc import Sequence
 from html.parser import HTMLParser
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -16,7 +15,7 @@ import pytest
 from tests.evaluation.report_records import FIRST, NS, SECOND, tiny
 from usd2kg.errors import EvaluationError
 from usd2kg.evaluation import SceneResult
-from usd2kg.evaluation.report import canvas, write_report
+from usd2kg.evaluation.report import write_report
 from usd2kg.evaluation.report.blocks import Section, Table, printable
 from usd2kg.evaluation.report.canvas import check_matplotlib
 from usd2kg.evaluation.report.html import format_html
@@ -24,7 +23,7 @@ from usd2kg.evaluation.report.latex import escape_latex, format_latex
 from usd2kg.evaluation.report.markdown import escape_markdown, format_markdown
 
 if TYPE_CHECKING:
-    from matplotlib.figure import Figure as Canvas
+    pass
 
 EVIL = "<script>alert(1)</script>|\n"
 EVIL_CLASS = "a|`b`$x$<b>&amp;\\_%[c](d)\x1b"
@@ -76,17 +75,6 @@ def read_page(text: str) -> Page:
     return page
 
 
-@pytest.fixture
-def svg_only(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Leave PNG and PDF empty, which take most of the time of a report."""
-    save = canvas._save
-
-    def save_svg(drawn: "Canvas", file_format: str, omitted: Sequence[str]) -> bytes:
-        return save(drawn, file_format, omitted) if file_format == "svg" else b""
-
-    monkeypatch.setattr(canvas, "_save", save_svg)
-
-
 class TestFiles:
     def test_writes_and_returns_all_files(self, tmp_path: Path):
         paths = write_report([tiny()], "A title", tmp_path / "new" / "folder")
@@ -95,12 +83,14 @@ class TestFiles:
         assert all(path.is_file() for path in paths)
         assert {p for p in (tmp_path / "new" / "folder").rglob("*") if p.is_file()} == set(paths)
 
+    @pytest.mark.usefixtures("svg_only")  # test_report_plots compares the others
     def test_output_is_deterministic(self, tmp_path: Path):
         runs = {("first", "semantic"): FIRST, ("first", "geometry only"): SECOND, ("first", "name only"): SECOND}
         first = write_report([tiny(runs), tiny()], "A title", tmp_path / "a")
         second = write_report([tiny(runs), tiny()], "A title", tmp_path / "b")
         assert [path.read_bytes() for path in first] == [path.read_bytes() for path in second]
 
+    @pytest.mark.usefixtures("svg_only")
     def test_run_times_only_affect_the_timing_table(self, tmp_path: Path):
         first = write_report([tiny(seconds=0.4)], "A title", tmp_path / "a")
         second = write_report([tiny(seconds=44.0)], "A title", tmp_path / "b")

@@ -82,7 +82,7 @@ def house_links() -> set[tuple[str, str, str]]:
     return links(house(), load_home_tbox())
 
 
-@pytest.mark.parametrize("path", SHARED)
+@pytest.mark.parametrize("path", [SHARED[0], *(pytest.param(path, marks=pytest.mark.slow) for path in SHARED[1:])])
 def test_a_real_house_has_the_same_relations_and_rooms(path: str):
     found = links(house(), load_tbox(shared_file(f"ontologies/{path}")))
     assert found == house_links()

@@ -30,6 +30,7 @@ from usd2kg.cli import (
     init,
     inspect,
     label,
+    licences,
     ontology,
     query,
     render,
@@ -74,6 +75,7 @@ app.command("render")(render.render_command)
 app.command("mcp")(assistant.mcp_command)
 app.command("demo")(demo.demo_command)
 app.command("doctor")(doctor.doctor_command)
+app.command("licences")(licences.licences_command)
 app.command("init")(init.make_init_command(app))
 app.add_typer(graph.app, name="graph")
 app.add_typer(label.app, name="label")

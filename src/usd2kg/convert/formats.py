@@ -7,7 +7,7 @@ __all__ = ["FORMATS", "LAYER_ENDINGS", "STAGE_ENDINGS", "SourceFormat", "find_fo
 
 LAYER_ENDINGS = (".usda", ".usdc", ".usd")
 """USD files that hold one layer."""
-STAGE_ENDINGS = (*LAYER_ENDINGS, ".usdz")
+STAGE_ENDINGS = (".usd", ".usda", ".usdc", ".usdz")
 """USD files that open as a stage."""
 
 
