@@ -48,9 +48,8 @@ def define_joint(
     """
     ends = [scope.link_of(name) if name != WORLD_FRAME else "" for name in (joint.parent, joint.child)]
     if any(end is None or (end and end not in bodies) for end in ends) or ends[0] == ends[1]:
-        text = (
-            f"the joint {joint.name!r} does not connect two links ({joint.parent!r}, {joint.child!r}); it is left out"
-        )
+        found = f"{joint.parent!r} and {joint.child!r}"
+        text = f"the joint {joint.name!r} connects {found}, expected two links; it is left out"
         notes.add(joint.path, joint.element, text)
         return
     type_name = _TYPES.get(joint.type, _OTHER)

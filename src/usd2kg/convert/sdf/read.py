@@ -86,19 +86,19 @@ class _StageWriter:
             Kind.Tokens.component if is_group else Kind.Tokens.subcomponent,
             parent.is_static or model.is_static,
         )
-        bodies = {link.name: self._write_link(link, model, scope, below) for link in model.links}
+        bodies = {link.name: self._write_link(link, scope, below) for link in model.links}
         bodies.update(self._write_models(model, scope, below))
         for joint in model.joints:
             define_joint(self._author, below.path, joint, scope, bodies, below.to_world, self._notes)
         return bodies
 
-    def _write_link(self, link: Link, model: Model, scope: Scope, parent: "_Parent") -> str:
+    def _write_link(self, link: Link, scope: Scope, parent: "_Parent") -> str:
         prim = self._author.define(parent.path, link.name or "link")
         path = str(prim.GetPath())
         matrix = scope.place(link.pose, MODEL_FRAME)
         self._author.move(prim, matrix)
-        if sum(bool(other.visuals) for other in model.links) > 1 and link.visuals:
-            Usd.ModelAPI(prim).SetKind(Kind.Tokens.subcomponent)
+        # A rigid body without a kind would be an object of its own.
+        Usd.ModelAPI(prim).SetKind(Kind.Tokens.subcomponent)
         if not parent.is_static:
             UsdPhysics.RigidBodyAPI.Apply(prim)
         to_link = inverse(matrix)

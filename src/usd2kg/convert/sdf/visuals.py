@@ -194,7 +194,8 @@ class VisualAuthor:
 
     def _material_name(self, visual: Visual) -> str:
         script = None if visual.material is None else visual.material.find("script")
-        return "" if script is None else script.text_of("name")
+        # The materials of Gazebo are named `Gazebo/Wood`.
+        return "" if script is None else script.text_of("name").rpartition("/")[2]
 
     def _surface(
         self, name: str, color: tuple[float, float, float] | None, opacity: float, visual: Visual
