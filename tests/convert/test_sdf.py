@@ -2,6 +2,7 @@
 
 import hashlib
 import math
+import sys
 from pathlib import Path
 
 import numpy as np
@@ -143,6 +144,11 @@ class TestWorld:
         mug = stage.GetPrimAtPath("/room/mug/body")
         assert mug.HasAPI(UsdPhysics.RigidBodyAPI)
         assert tuple(UsdPhysics.MassAPI(mug).GetCenterOfMassAttr().Get()) == pytest.approx((0, 0, 0.01))
+
+    def test_a_world_without_meshes_needs_no_package(self, tmp_path: Path, monkeypatch: pytest.MonkeyPatch):
+        for name in ("trimesh", "collada", "mapbox_earcut"):
+            monkeypatch.setitem(sys.modules, name, None)
+        assert len(read_scene(world(tmp_path / "kitchen.world", KITCHEN)).objects) == 2
 
     def test_a_file_with_one_model_is_one_object(self, tmp_path: Path):
         path = write(tmp_path / "model.sdf", sdf(cube_model("chair", "<pose>0 0 0.1 0 0 0</pose>")))
@@ -634,6 +640,27 @@ class TestMeshes:
         assert note.startswith(f"a.sdf, line 4: the mesh {uri} is not read (")
         assert reason in note
         assert [obj.name for obj in scene.objects] == ["m"]
+
+    @pytest.mark.parametrize(("library", "materials"), [("../paint/red.mtl", ("red",)), ("../../../red.mtl", ())])
+    def test_material_libraries_are_read_within_the_folders(
+        self, tmp_path: Path, library: str, materials: tuple[str, ...]
+    ):
+        folder = tmp_path / "deep" / "part" / "meshes"
+        write(folder / "part.obj", f"mtllib {library}\nusemtl red\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n")
+        write(folder / library, "newmtl red\nKd 1 0 0\n")
+        source = self.mesh_world(tmp_path / "deep" / "part" / "a.sdf", "<uri>meshes/part.obj</uri>")
+        (found,) = read_scene(source).objects
+        assert found.box is not None
+        assert found.materials == materials
+
+    def test_a_missing_package_names_its_install_command(self, tmp_path: Path, monkeypatch: pytest.MonkeyPatch):
+        write(tmp_path / "two.dae", dae(left=0))
+        monkeypatch.setitem(sys.modules, "collada", None)
+        source = self.mesh_world(tmp_path / "a.sdf", "<uri>two.dae</uri>")
+        with pytest.raises(
+            SceneError, match=r"needs collada, which is not installed; run: pip install 'usd2kg\[sdf\]'"
+        ):
+            read_scene(source)
 
     def test_collada_with_entities_is_not_read(self, tmp_path: Path):
         pytest.importorskip("collada", reason="needs the extra sdf")
