@@ -845,6 +845,22 @@ class TestHostileFiles:
         notes = notes_of(read_scene(world(tmp_path / "w.sdf", body)))
         assert (len(notes), notes[-1]) == (51, "10 more notes are not listed")
 
+    def test_odd_names_and_uris_are_kept(self, tmp_path: Path):
+        body = (
+            '<include><uri>model://a\nb@@@c\x85"q"</uri><name>x"@@@\né</name></include>'
+            + cube_model("Materials", "")
+            + cube_model("a::b/&lt;c>", "")
+        )
+        source = world(tmp_path / "w.sdf", body)
+        assert [obj.display_name or obj.name for obj in read_scene(source).objects] == [
+            'x"@@@ é',
+            "Materials",
+            "a::b/<c>",
+        ]
+        stage = stage_of(source, tmp_path)
+        info = stage.GetDefaultPrim().GetChildren()[0].GetAssetInfo()
+        assert info["identifier"].path == 'model://a b@@@c "q"'
+
     def test_odd_values_do_not_stop_the_reader(self, tmp_path: Path):
         paint = "<material><diffuse>red</diffuse></material>"
         ground = visual("<plane><normal>0 0 0</normal></plane>")

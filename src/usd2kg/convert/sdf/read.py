@@ -150,7 +150,8 @@ def _describe(prim: Usd.Prim, model: Model) -> None:
     """Author the asset of a model, and the label of a person."""
     asset = _asset(model)
     if asset is not None:
-        identifier = Sdf.AssetPath(valid_text(asset.uri))
+        # OpenUSD refuses asset paths with control characters, which XML may contain.
+        identifier = Sdf.AssetPath("".join(character for character in asset.uri if character.isprintable()))
         prim.SetAssetInfo({"name": valid_text(asset.name), "identifier": identifier})
         if asset.texts:
             prim.SetCustomDataByKey("sdf", custom_data(asset.texts))

@@ -38,9 +38,9 @@ class XmlElement:
         return (child for child in self.children if child.tag == tag)
 
     def text_of(self, tag: str) -> str:
-        """Return the text of the first child with a tag; empty without one."""
+        """Return the text of the first child with a tag, in one line; empty without one."""
         child = self.find(tag)
-        return child.text if child is not None else ""
+        return " ".join(child.text.split()) if child is not None else ""
 
     def name(self, attribute: str = "name") -> str:
         """Return an attribute without white space around it; empty without one."""
