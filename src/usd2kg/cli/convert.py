@@ -13,7 +13,11 @@ __all__ = ["convert_command"]
 
 def convert_command(
     source: Annotated[
-        Path, Argument(metavar="FILE", help="File to convert: .glb, .gltf, .obj, .urdf, .xml (MJCF), .ifc or .ifczip.")
+        Path,
+        Argument(
+            metavar="FILE",
+            help="File to convert: .glb, .gltf, .obj, .urdf, .xml (MJCF), .ifc, .ifczip, .sdf or .world.",
+        ),
     ],
     output: Annotated[
         Path | None,

@@ -31,6 +31,7 @@ FORMATS = (
     SourceFormat("URDF", (".urdf",), "urdf", "pipx install urdf-usd-converter"),
     SourceFormat("MJCF", (".xml",), "mjcf", "pipx install mujoco-usd-converter"),
     SourceFormat("IFC", (".ifc", ".ifczip"), "ifc", "pip install 'usd2kg[ifc]'"),
+    SourceFormat("SDFormat", (".sdf", ".world"), "sdf", "pip install 'usd2kg[sdf]'"),
 )
 
 

@@ -52,10 +52,10 @@ def load_scene(path: Path, expected: str, **options: Any) -> "trimesh.Scene":
 class MeshAuthor:
     """Authors the meshes of a scene with their materials."""
 
-    def __init__(self, author: PrimAuthor, root: str) -> None:
-        """Keep materials in a scope below the path `root`."""
+    def __init__(self, author: PrimAuthor, root: str, materials: MaterialAuthor | None = None) -> None:
+        """Keep materials in a scope below the path `root`, or with those of `materials`."""
         self._author = author
-        self._materials = MaterialAuthor(author, root)
+        self._materials = MaterialAuthor(author, root) if materials is None else materials
         self._read: dict[int, SourceMesh] = {}
 
     def define(self, parent: str, name: str, geometry: "trimesh.Trimesh") -> Any:
