@@ -16,7 +16,8 @@ if TYPE_CHECKING:
     from usd2kg.query import load_graph
     from usd2kg.scene import Scene, read_scene
     from usd2kg.tables import Tables, to_tables
-    from usd2kg.world import World, open
+    from usd2kg.world import World
+    from usd2kg.world import open as open
 
 _PACKAGES = {
     "BuildResult": "pipeline",
@@ -40,6 +41,7 @@ _PACKAGES = {
     "write_graph": "graph",
 }
 
+# Without `open`: `from usd2kg import *` keeps the built-in one.
 __all__ = [
     "BuildResult",
     "Grounding",
@@ -56,7 +58,6 @@ __all__ = [
     "load_home_tbox",
     "load_tbox",
     "make_grounder",
-    "open",
     "read_scene",
     "to_tables",
     "write_graph",
@@ -64,7 +65,7 @@ __all__ = [
 
 
 def __dir__() -> list[str]:
-    return sorted([*__all__, "__version__"])
+    return sorted([*_PACKAGES, "__version__"])
 
 
 def __getattr__(name: str) -> Any:

@@ -1,6 +1,6 @@
 """The whole pipeline: scene + ontology → knowledge graph."""
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from contextlib import nullcontext
 from dataclasses import dataclass
 from pathlib import Path
@@ -81,7 +81,7 @@ def build(
     """
     with show_steps("read", "ontology", "ground", "relate", "instantiate") if progress else nullcontext():
         read = scene if isinstance(scene, Scene) else read_scene(scene, paths=paths, options=options)
-        tbox = ontology if isinstance(ontology, TBox) else open_tbox(ontology, scene=read)
+        tbox = ontology if isinstance(ontology, TBox) else open_tbox(ontology, read, stated=_places_decided(decisions))
         if alignment is not None:
             grounder = _aligned_grounder(grounder, Path(alignment))
         grounding = ground(read, tbox, grounder, regime=regime, evidence=evidence, decisions=decisions, carried=carried)
@@ -98,20 +98,31 @@ def _aligned_grounder(grounder: Grounder | str, alignment: Path) -> Grounder:
     return make_grounder(grounder, alignment=alignment)
 
 
-def open_tbox(ontology: Path | str | None, *, scene: Scene | None = None, stated: Iterable[str] = ()) -> TBox:
+def open_tbox(ontology: Path | str | None, *scenes: Scene, stated: Iterable[str] = ()) -> TBox:
     """Return the TBox of an OWL file, or a built-in one.
 
     Args:
         ontology: an OWL file, or `home` or `places`; None for the built-in TBox of what `stated` names, else of what
-            suits the scene, else of homes.
-        scene: what is to be grounded.
-        stated: IRIs of ontologies or classes that a graph or a mapping states.
+            suits the scenes, else of homes.
+        scenes: what is to be grounded in one TBox.
+        stated: IRIs of ontologies or classes that a graph, a mapping or decisions state.
 
     Raises:
         OntologyError: the file cannot be read or has no class in scope.
     """
     if ontology is not None:
         return load_tbox(ontology)
-    if any(iri.startswith(PLACES_IRI) for iri in stated):
+    named = frozenset(stated)
+    if any(iri.startswith(PLACES_IRI) for iri in named):
         return load_places_tbox()
-    return load_home_tbox() if scene is None else choose_built_in_tbox(scene)
+    home = load_home_tbox()
+    is_home = home.ontology_iri in named or not named.isdisjoint(home.by_iri)
+    return home if is_home else choose_built_in_tbox(*scenes)
+
+
+def _places_decided(decisions: Mapping[str, ClassIRI | Decision] | None) -> Iterator[str]:
+    """Yield the classes of places among decisions; those of homes are in both built-in TBoxes."""
+    for decision in (decisions or {}).values():
+        iri = decision.class_iri if isinstance(decision, Decision) else decision
+        if iri is not None and iri.startswith(PLACES_IRI):
+            yield iri

@@ -1,17 +1,22 @@
 """The built-in TBoxes: which one a scene gets, and what that of places holds."""
 
+import gzip
 from collections import Counter
+from pathlib import Path
 
 import pytest
 
+from benchmarks.bare import bare_object, bare_scene
 from tests.conftest import shared_file
 from usd2kg import build
 from usd2kg.demo import demo_scene
+from usd2kg.diff.versions import VersionOptions, read_versions
+from usd2kg.graph import write_graph
 from usd2kg.grounding import ObjectView, make_grounder
-from usd2kg.grounding.built_in_choice import choose_built_in_tbox, count_place_votes
-from usd2kg.ontology import load_home_tbox, load_places_tbox, load_tbox, read_closure
+from usd2kg.grounding.built_in_choice import choose_built_in_tbox, count_place_votes, stated_places
+from usd2kg.ontology import PLACES_IRI, load_home_tbox, load_places_tbox, load_tbox, read_closure
 from usd2kg.pipeline import open_tbox
-from usd2kg.scene import read_scene
+from usd2kg.scene import ReadOptions, Scene, read_scene
 
 PLACES = load_places_tbox()
 WORKPLACE = ["Forklift_01", "pallet_rack_3", "SM_EuroPallet", "shelf_a", "cardboard_box", "fire_extinguisher"]
@@ -53,6 +58,50 @@ def test_a_graph_keeps_the_ontology_that_it_states():
     assert open_tbox(None, stated=["https://w3id.org/usd2kg/places"]) is PLACES
     assert open_tbox(None, stated=["https://w3id.org/usd2kg/places#Forklift"]) is PLACES
     assert open_tbox(None, stated=["http://www.ease-crc.org/ont/SOMA-HOME.owl"]) is load_home_tbox()
+
+
+def scene_of(names: list[str]) -> Scene:
+    return bare_scene("names", [bare_object(f"/World/{name}") for name in names])
+
+
+def test_what_a_graph_states_precedes_what_suits_the_scene():
+    workplace = scene_of(WORKPLACE)
+    assert open_tbox(None, workplace).source == PLACES.source
+    assert open_tbox(None, workplace, stated=[load_home_tbox().resolve("Cup")]) is load_home_tbox()
+
+
+def test_one_workplace_among_the_scenes_decides():
+    home, workplace = scene_of(HOME), scene_of(WORKPLACE)
+    for scenes in ((home, workplace), (workplace, home)):
+        assert open_tbox(None, *scenes).source == PLACES.source
+
+
+@pytest.mark.parametrize("name", ["decisions.csv", "graph.ttl.gz"])
+def test_a_file_states_places_by_its_text(tmp_path: Path, name: str):
+    opener = gzip.open if name.endswith(".gz") else open
+    with opener(tmp_path / name, "wb") as file:
+        # The IRI lies on the border of two blocks.
+        file.write(b" " * ((1 << 20) - 9) + b"https://w3id.org/usd2kg/places#Forklift")
+    assert stated_places(None, tmp_path / name) == (PLACES_IRI,)
+    (tmp_path / "other").write_bytes(b"https://w3id.org/usd2kg/home")
+    assert stated_places(None, tmp_path / "other", tmp_path / "missing") == ()
+
+
+def test_decisions_with_classes_of_places_are_kept_in_a_home():
+    forklift = PLACES.resolve("Forklift")
+    path = "/KitchenDining/diningArea/diningTable"
+    built = build(demo_scene(), decisions={path: forklift})
+    assert built.grounding.by_path[path].class_iri == forklift
+
+
+def test_a_stage_has_no_changes_from_its_own_graph_of_homes(tmp_path: Path):
+    stage = shared_file("scenes/aws_robomaker/small_warehouse.usdc")
+    write_graph(build(stage, "home").graph, tmp_path / "home.ttl")
+    options = VersionOptions(ReadOptions())
+    before, after = read_versions(
+        tmp_path / "home.ttl", stage, lambda scenes, stated: open_tbox(None, *scenes, stated=stated), options
+    )
+    assert [one.classes for one in before.objects] == [one.classes for one in after.objects]
 
 
 def test_the_tbox_of_places_extends_that_of_homes():

@@ -18,7 +18,8 @@ _MENU = "usd2kg"
 class Usd2kgPluginContainer(PluginContainer):  # type: ignore[misc]
     """Adds *Color by class*, *Reset colors* and *Object page*.
 
-    The ontology is the OWL file in the environment variable USD2KG_ONTOLOGY, else the built-in home ontology.
+    The ontology is the OWL file in the environment variable USD2KG_ONTOLOGY, else the built-in one that suits the
+    stage.
     """
 
     def registerPlugins(self, plugRegistry: Any, usdviewApi: Any) -> None:  # noqa: N802, N803 - names of usdview

@@ -34,14 +34,14 @@ def ground_stage(stage: Usd.Stage, ontology: Path | str | None = None) -> Ground
 
     Args:
         stage: the open stage, read with its session layer and current variants.
-        ontology: an OWL file; default: the built-in home ontology.
+        ontology: an OWL file; default: the built-in one that suits the stage.
 
     Raises:
         Usd2kgError: the stage has no objects, or the ontology cannot be read.
     """
     reset_colors(stage)
-    tbox = open_tbox(ontology)
     scene = read_scene(stage)
+    tbox = open_tbox(ontology, scene)
     return GroundedStage(scene, tbox, ground(scene, tbox))
 
 

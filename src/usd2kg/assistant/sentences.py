@@ -72,11 +72,13 @@ def count_phrase(count: int, noun: str) -> str:
 
 
 def the_thing(kind: str, label: str) -> str:
-    """Return a thing by its kind and name, or by its name alone if that begins with the kind as a word.
+    """Return a thing by its kind and name, or by one of them if the name is the kind or begins with it as a word.
 
-    >>> the_thing("cup", "Mug_2"), the_thing("room", "room 1")
-    ('the cup Mug_2', 'room 1')
+    >>> the_thing("cup", "Mug_2"), the_thing("room", "room 1"), the_thing("table", "Table")
+    ('the cup Mug_2', 'room 1', 'the table')
     """
+    if label.lower() == kind.lower():
+        return f"the {kind}"
     return label if label.lower().startswith(f"{kind.lower()} ") else f"the {kind} {label}"
 
 

@@ -145,10 +145,10 @@ def _parse_kinds(text: str) -> frozenset[str]:
     return kinds
 
 
-def _open_tbox(ontology: Path | None, scene: "Scene", stated: "Iterable[str]") -> "TBox":
+def _open_tbox(ontology: Path | None, scenes: "Iterable[Scene]", stated: "Iterable[str]") -> "TBox":
     from usd2kg.pipeline import open_tbox  # noqa: PLC0415
 
-    tbox = open_tbox(ontology, scene=scene, stated=stated)
+    tbox = open_tbox(ontology, *scenes, stated=stated)
     notify_notes(tbox)
     return tbox
 

@@ -60,6 +60,7 @@ def ground_command(
     """Ground the objects of a scene: print class, confidence and concept of each."""
     from usd2kg.files import check_writable  # noqa: PLC0415
     from usd2kg.grounding import check_format, format_mapping, ground, read_paths  # noqa: PLC0415
+    from usd2kg.grounding.built_in_choice import stated_places  # noqa: PLC0415
     from usd2kg.pipeline import open_tbox  # noqa: PLC0415
     from usd2kg.scene import read_scene  # noqa: PLC0415 - loads OpenUSD, too slow for --help
 
@@ -79,7 +80,7 @@ def ground_command(
     read_options = reading.read_options()
     with show_progress(grounding, "read", "ground"):
         found = read_scene(scene, paths=wanted, options=read_options)
-        tbox = open_tbox(ontology, scene=found)
+        tbox = open_tbox(ontology, found, stated=stated_places(grounding.review.decisions))
         notify_notes(tbox)
         with open_grounder_session(grounding, found, tbox, scene, read_options, carry_over) as session:
             if session.model is not None and grounding.model.requests.dry_run:

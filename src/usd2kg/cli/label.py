@@ -1,7 +1,5 @@
 """usd2kg label: the classes of a run as semantic labels on the stage, and a linter for labels."""
 
-import gzip
-import zlib
 from collections.abc import Iterator
 from dataclasses import asdict
 from pathlib import Path
@@ -100,13 +98,14 @@ def write_command(
 ) -> None:
     """Write a layer over a scene that labels prims with their classes. This is the default command."""
     from usd2kg.files import check_apart, check_writable  # noqa: PLC0415
+    from usd2kg.grounding.built_in_choice import stated_places  # noqa: PLC0415
     from usd2kg.labels import label_stage, read_prim_classes  # noqa: PLC0415 - loads OpenUSD, too slow for --help
     from usd2kg.pipeline import open_tbox  # noqa: PLC0415
 
     target = output or Path(f"{scene.stem}.labels.usda")
     check_writable(target)
     check_apart([target], [scene, run, ontology])
-    tbox = open_tbox(ontology, stated=_places_in(run))
+    tbox = open_tbox(ontology, stated=stated_places(run))
     options = _label_options(encoding, mode, bare, de_instance, {"ontology": tbox.ontology_iri, "run": run.name})
     report = label_stage(
         scene,
@@ -132,19 +131,6 @@ def write_command(
     for line in _report_lines(report):
         notify(line)
     notify(f"written to {target}")
-
-
-def _places_in(run: Path) -> tuple[str, ...]:
-    """Return the IRI of the built-in ontology of places if a mapping or graph has it in its text."""
-    from usd2kg.ontology import PLACES_IRI  # noqa: PLC0415
-
-    try:
-        data = run.read_bytes()
-        text = gzip.decompress(data) if run.suffix == ".gz" else data
-    except (OSError, EOFError, zlib.error):
-        # Reading the classes says what is wrong with the file.
-        return ()
-    return (PLACES_IRI,) if PLACES_IRI.encode() in text else ()
 
 
 def _label_options(

@@ -52,12 +52,13 @@ class SceneBuild:
         Raises:
             Usd2kgError: an input cannot be read, or an option is invalid.
         """
+        from usd2kg.grounding.built_in_choice import stated_places  # noqa: PLC0415
         from usd2kg.pipeline import build, open_tbox  # noqa: PLC0415 - loads OpenUSD, too slow for --help
         from usd2kg.scene import read_scene  # noqa: PLC0415
 
         options = self.reading.read_options()
         scene = read_scene(source, options=options)
-        tbox = tbox or open_tbox(None, scene=scene)
+        tbox = tbox or open_tbox(None, scene, stated=stated_places(self.grounding.review.decisions))
         with open_grounder_session(self.grounding, scene, tbox, source, options, self.carry_over) as session:
             result = build(
                 scene,

@@ -1,6 +1,6 @@
 """The two versions of a scene to compare, each a graph or a stage."""
 
-from collections.abc import Callable, Iterable, Set
+from collections.abc import Callable, Iterable, Iterator, Set
 from pathlib import Path
 from typing import NamedTuple
 
@@ -12,6 +12,7 @@ from usd2kg.diff.object_state import ObjectState, objects_of_scene
 from usd2kg.graph import GraphOptions, instantiate
 from usd2kg.graph.iris import default_base
 from usd2kg.graph.rdf_document import read_statements
+from usd2kg.graph.vocabulary import OWL
 from usd2kg.grounding import ground
 from usd2kg.ontology import TBox
 from usd2kg.relations import ALL_KINDS, DEFAULT_KINDS, VIEWPOINT_KINDS, RelationOptions, find_relations
@@ -51,15 +52,15 @@ def read_objects(path: Path, options: ReadOptions) -> tuple[ObjectState, ...]:
 
 
 def read_versions(
-    old: Path, new: Path, open_tbox: Callable[[Scene, Iterable[str]], TBox], options: VersionOptions
+    old: Path, new: Path, open_tbox: Callable[[Iterable[Scene], Iterable[str]], TBox], options: VersionOptions
 ) -> tuple[Version, Version]:
     """Return both versions; the graph of a stage is built with base, profile and annotations of the other graph.
 
     Args:
         old: the earlier version.
         new: the later version.
-        open_tbox: returns the TBox for a stage, and for the classes that the other graph states; called only if one of
-            the versions is a stage.
+        open_tbox: returns the TBox for stages, and for the classes and imports that the other graph states; called
+            only if one of the versions is a stage.
         options: how the graph of a stage is built.
 
     Raises:
@@ -71,11 +72,19 @@ def read_versions(
     if graphs.keys() == {old, new}:
         return graphs[old], graphs[new]
     scenes = {path: read_scene(path, options=options.reading) for path in (old, new) if path not in graphs}
-    stated = sorted({iri for version in graphs.values() for thing in version.objects for iri in thing.classes})
-    # Both stages are grounded in one TBox: other classes would be changes.
-    tbox = open_tbox(next(iter(scenes.values())), stated)
+    # Both versions are grounded in one TBox: other classes would be changes.
+    tbox = open_tbox(scenes.values(), {iri for version in graphs.values() for iri in _stated_in(version)})
     before, after = (graphs.get(path) or _build(path, scenes[path], tbox, style, options) for path in (old, new))
     return before, after
+
+
+def _stated_in(version: Version) -> Iterator[str]:
+    """Yield the classes of the objects and the imports of a graph."""
+    for thing in version.objects:
+        yield from thing.classes
+    for statement in version.statements:
+        if statement.predicate == OWL.imports and isinstance(statement.object, ox.NamedNode):
+            yield statement.object.value
 
 
 def _build(path: Path, scene: Scene, tbox: TBox, style: GraphStyle, options: VersionOptions) -> Version:

@@ -1,20 +1,25 @@
 """Choose the built-in TBox for a scene: that of homes, or that of places, such as workplaces and streets."""
 
+import gzip
+import zlib
 from collections.abc import Iterable, Mapping
 from dataclasses import replace
 from functools import cache
+from pathlib import Path
 from typing import NamedTuple
 
 from usd2kg.grounding.settings import BUILT_IN_CHOICE
 from usd2kg.knowledge import read_rows
-from usd2kg.ontology import OntologyNote, TBox, load_home_tbox, load_places_tbox
+from usd2kg.ontology import PLACES_IRI, OntologyNote, TBox, load_home_tbox, load_places_tbox
 from usd2kg.scene import Scene
 from usd2kg.words import words_of
 
-__all__ = ["PlaceVotes", "choose_built_in_tbox", "count_place_votes"]
+__all__ = ["PlaceVotes", "choose_built_in_tbox", "count_place_votes", "stated_places"]
 
 _LONGEST_NOUN = 4
 """Words of the longest nouns that are looked up."""
+_BLOCK = 1 << 20
+"""Bytes of a file that are searched at once."""
 
 
 class PlaceVotes(NamedTuple):
@@ -32,13 +37,14 @@ class PlaceVotes(NamedTuple):
         return is_frequent and count >= BUILT_IN_CHOICE.min_names
 
 
-def choose_built_in_tbox(scene: Scene) -> TBox:
-    """Return the TBox of places if many names of a scene mean things that homes do not have, else that of homes.
+def choose_built_in_tbox(*scenes: Scene) -> TBox:
+    """Return the TBox of places if many names of one of the scenes mean things that homes do not have, else of homes.
 
     A note of the TBox of places says which things.
     """
-    votes = count_place_votes(obj.name for obj in scene.objects)
-    if not votes.is_workplace:
+    counted = (count_place_votes(obj.name for obj in scene.objects) for scene in scenes)
+    votes = next((found for found in counted if found.is_workplace), None)
+    if votes is None:
         return load_home_tbox()
     nouns = ", ".join(list(dict.fromkeys(votes.workplaces))[: BUILT_IN_CHOICE.named_examples])
     understood = len(votes.workplaces) + votes.homes
@@ -85,3 +91,26 @@ def _nouns() -> Mapping[str, bool]:
     nouns = {name: True for cls in load_home_tbox().classes for name in (cls.label, *cls.alt_labels)}
     nouns.update((row["noun"], row["in_homes"] == "yes") for row in read_rows("place_nouns.csv"))
     return nouns
+
+
+def stated_places(*files: Path | None) -> tuple[str, ...]:
+    """Return the IRI of the ontology of places if the text of a file has it, such as decisions, a mapping or a graph.
+
+    A file that cannot be read states nothing: who reads it for its contents says what is wrong with it.
+    """
+    wanted = PLACES_IRI.encode()
+    return (PLACES_IRI,) if any(file is not None and _contains(file, wanted) for file in files) else ()
+
+
+def _contains(file: Path, wanted: bytes) -> bool:
+    opener = gzip.open if file.suffix == ".gz" else open
+    try:
+        with opener(file, "rb") as stream:
+            before = b""
+            while block := stream.read(_BLOCK):
+                if wanted in before + block:
+                    return True
+                before = block[-len(wanted) :]
+    except (OSError, EOFError, zlib.error):
+        pass
+    return False

@@ -80,7 +80,7 @@ class TBox:
     classes: tuple[OntologyClass, ...]
     imports: tuple[str, ...] = ()
     """IRIs of the other documents of the imports closure, sorted."""
-    notes: tuple[OntologyNote, ...] = ()
+    notes: tuple[OntologyNote, ...] = field(default=(), compare=False)
     prefixes: Mapping[str, str] = field(default_factory=dict, compare=False)
     """Prefix → namespace, as the file declares them, for the namespaces of the classes; sorted by prefix."""
     isolated: tuple[ClassIRI, ...] = ()

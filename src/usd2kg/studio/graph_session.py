@@ -95,7 +95,8 @@ def open_graph_session(project: Project) -> GraphSession:
     if given is not None:
         raise GroundingError(f"--{given}: {sources.scene} is a graph, which states its own; open the stage to use it")
     read = read_graph_scene(sources.scene)
-    tbox = open_tbox(sources.ontology, stated=read.imports)
+    classes = {p.class_iri for p in read.grounding.predictions if p.class_iri is not None}
+    tbox = open_tbox(sources.ontology, stated={*read.imports, read.grounding.ontology, *classes})
     unknown = next((p for p in read.grounding.predictions if p.class_iri and p.class_iri not in tbox.by_iri), None)
     if unknown is not None:
         ontology = read.grounding.ontology or "another ontology"

@@ -28,7 +28,7 @@ class ProjectSources:
 
     scene: Path
     ontology: Path | None = None
-    """None for the built-in home TBox."""
+    """None for the built-in TBox that suits the scene."""
     mapping: Path | None = None
     """Grounding of `usd2kg ground --format json`; None for the lexical grounder's."""
     second_mapping: Path | None = None

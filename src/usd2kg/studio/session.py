@@ -13,6 +13,7 @@ from usd2kg.files import write_whole
 from usd2kg.graph import KnowledgeGraph, instantiate
 from usd2kg.graph.iris import default_base
 from usd2kg.grounding import Grounding, Prediction, apply_decisions, ground, make_grounder, read_grounding
+from usd2kg.grounding.built_in_choice import stated_places
 from usd2kg.ontology import TBox
 from usd2kg.pipeline import open_tbox
 from usd2kg.query import GraphStore
@@ -264,7 +265,8 @@ def open_stage_session(project: Project) -> StudioSession:
     """
     sources = project.sources
     scene = read_scene(sources.scene, options=sources.reading)
-    tbox = open_tbox(sources.ontology, scene=scene)
+    stated = stated_places(project.journal, sources.mapping, sources.second_mapping)
+    tbox = open_tbox(sources.ontology, scene, stated=stated)
     if sources.mapping is not None:
         grounding = _read_mapping(sources.mapping, scene, tbox)
     else:

@@ -39,7 +39,7 @@ class LabelSettings:
     """The settings of the extension."""
 
     ontology: str = ""
-    """An OWL file; empty for the built-in home ontology."""
+    """An OWL file; empty for the built-in ontology that suits the stage."""
     encodings: str = "semantics"
     """Comma-separated encodings, as for `usd2kg label --encoding`."""
     mode: str = "new"
@@ -133,7 +133,7 @@ def ground_objects(scene: Scene, ontology: Path | str | None = None) -> Grounded
     Raises:
         OntologyError: the ontology cannot be read.
     """
-    tbox = open_tbox(ontology)
+    tbox = open_tbox(ontology, scene)
     return GroundedObjects(scene, tbox, ground(scene, tbox))
 
 

@@ -13,6 +13,7 @@ __all__ = [
     "BaseIri",
     "JsonOutput",
     "OntologyFile",
+    "OntologyOfGold",
     "ReportFolder",
     "SceneFile",
     "TextFile",
@@ -27,7 +28,15 @@ OntologyFile = Annotated[
     Option(
         "--ontology",
         metavar="|".join(("FILE", *BUILT_IN_ONTOLOGIES)),
-        help="OWL file with the candidate classes, or a built-in ontology; default: the one that suits the scene.",
+        help="OWL file with the candidate classes, or a built-in ontology; default: what suits the scene or graph.",
+    ),
+]
+OntologyOfGold = Annotated[
+    Path | None,
+    Option(
+        "--ontology",
+        metavar="|".join(("FILE", *BUILT_IN_ONTOLOGIES)),
+        help="OWL file with the classes of the gold labels, or a built-in ontology; default: home.",
     ),
 ]
 BaseIri = Annotated[
