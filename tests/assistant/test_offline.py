@@ -157,7 +157,7 @@ def test_answers_with_objects(graph: GraphStore, text: str, expected: list[str])
         ("where is the piano?", "There is no piano in this scene."),
         (
             "where is the wardrobbe?",
-            "Wardrobe is on the floor Floor, at (3.50, 3.30, 1.00) m (“wardrobbe” was read as “wardrobe”).",
+            "Wardrobe is on the floor, at (3.50, 3.30, 1.00) m (“wardrobbe” was read as “wardrobe”).",
         ),
     ],
 )
