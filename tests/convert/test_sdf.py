@@ -486,6 +486,16 @@ class TestIncludes:
         joint = UsdPhysics.Joint(stage.GetPrimAtPath("/room/robot/j"))
         assert joint.GetBody1Rel().GetTargets() == ["/room/robot/link"]
 
+    def test_the_centre_of_mass_of_a_merged_link_keeps_its_frame(self, tmp_path: Path):
+        inertial = '<inertial><pose relative_to="__model__">0.5 0 0 0 0 0</pose><mass>1</mass></inertial>'
+        link = f'<link name="a"><pose>0 1 0 0 0 0</pose>{inertial}</link>'
+        write(tmp_path / "part.sdf", sdf(f'<model name="part">{link}</model>'))
+        include = f'<include merge="true"><uri>part.sdf</uri><pose>0 0 5 0 0 {HALF_PI}</pose></include>'
+        stage = stage_of(world(tmp_path / "a.sdf", f'<model name="m"><link name="base"/>{include}</model>'), tmp_path)
+        mass = UsdPhysics.MassAPI(stage.GetPrimAtPath("/room/m/a"))
+        # In the frame of the link, which is that of the part moved by 0 1 0.
+        assert tuple(mass.GetCenterOfMassAttr().Get()) == pytest.approx((0.5, -1, 0))
+
     def test_lights_that_are_included_are_left_out(self, tmp_path: Path):
         write(tmp_path / "models/lamp/model.sdf", sdf('<light name="lamp" type="point"/>'))
         body = cube_model("a", "") + "<include><uri>model://lamp</uri></include>"
