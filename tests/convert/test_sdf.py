@@ -13,12 +13,15 @@ from pxr import Usd, UsdGeom, UsdPhysics
 
 from tests.graph.records import open_store
 from usd2kg import build
+from usd2kg.convert.sdf import meshes, xml_files
 from usd2kg.convert.sdf import reader as sdf_reader
 from usd2kg.convert.sdf.frames import Scope
 from usd2kg.convert.sdf.model import Frame, Pose, World
 from usd2kg.convert.sdf.notes import Notes
 from usd2kg.convert.sdf.resources import ResourceError, Resources
 from usd2kg.convert.sdf.values import pose_matrix, quaternion_matrix
+from usd2kg.convert.sdf.xml_tree import read_xml
+from usd2kg.convert.trimesh_files import load_scene
 from usd2kg.convert.write import convert_file
 from usd2kg.errors import SceneError
 from usd2kg.scene import Scene, read_scene
@@ -430,10 +433,39 @@ class TestIncludes:
             "nor in models nor in the folders of GZ_SIM_RESOURCE_PATH); it has no geometry"
         ]
 
-    def test_a_broken_model_is_noted(self, tmp_path: Path):
-        write(tmp_path / "models" / NAME / "model.sdf", "<sdf version='1.6'>\n<model name='a'>\n</sdf>")
-        (note,) = notes_of(read_scene(world(tmp_path / "house.world", INCLUDE)))
-        assert "is not read (line 3: mismatched tag); it has no geometry" in note
+    @pytest.mark.parametrize(
+        ("text", "reason"),
+        [
+            ("<sdf version='1.6'>\n<model name='a'>\n</sdf>", "line 3: mismatched tag"),
+            ("<?xml version='1.0' encoding='shift_jis'?>\n<sdf/>", "line 1: multi-byte encodings are not supported"),
+        ],
+    )
+    def test_a_broken_model_is_noted(self, tmp_path: Path, text: str, reason: str):
+        write(tmp_path / "models" / NAME / "model.sdf", text)
+        scene = read_scene(world(tmp_path / "house.world", INCLUDE + cube_model("a", "")))
+        assert [obj.name for obj in scene.objects] == ["Chair_01_001", "a"]
+        (note,) = notes_of(scene)
+        assert f"is not read ({reason}); it has no geometry" in note
+
+    def test_a_broken_config_leaves_the_model(self, tmp_path: Path):
+        folder = put_chair(tmp_path / "models" / NAME)
+        write(folder / "model.config", "<model><name>Dining chair</model>")
+        scene = read_scene(world(tmp_path / "house.world", INCLUDE))
+        (chair,) = scene.objects
+        assert center(scene, chair.prim_path) == pytest.approx((1, 2, 0.1))
+        assert notes_of(scene) == [
+            f"house.world, line 4: the model.config of model://{NAME} is not read (line 1: mismatched tag); "
+            "the model has no texts"
+        ]
+
+    def test_an_included_file_is_parsed_once(self, tmp_path: Path, monkeypatch: pytest.MonkeyPatch):
+        parsed: list[str] = []
+        monkeypatch.setattr(xml_files, "read_xml", lambda path: parsed.append(path.name) or read_xml(path))
+        put_chair(tmp_path / "models" / NAME)
+        write(tmp_path / "models/broken/model.sdf", "<sdf>")
+        source = world(tmp_path / "house.world", (INCLUDE + "<include><uri>model://broken</uri></include>") * 3)
+        assert len(read_scene(source).objects) == 6
+        assert sorted(parsed) == ["house.world", "model.config", "model.sdf", "model.sdf"]
 
     def test_placement_frame_and_static_of_an_include(self, tmp_path: Path):
         put_chair(tmp_path / "models" / NAME)
@@ -453,6 +485,16 @@ class TestIncludes:
         assert np.allclose(to_world(stage, "/room/robot/link"), pose_matrix(0, 0, 1.1, 0, 0, math.pi / 2))
         joint = UsdPhysics.Joint(stage.GetPrimAtPath("/room/robot/j"))
         assert joint.GetBody1Rel().GetTargets() == ["/room/robot/link"]
+
+    def test_the_centre_of_mass_of_a_merged_link_keeps_its_frame(self, tmp_path: Path):
+        inertial = '<inertial><pose relative_to="__model__">0.5 0 0 0 0 0</pose><mass>1</mass></inertial>'
+        link = f'<link name="a"><pose>0 1 0 0 0 0</pose>{inertial}</link>'
+        write(tmp_path / "part.sdf", sdf(f'<model name="part">{link}</model>'))
+        include = f'<include merge="true"><uri>part.sdf</uri><pose>0 0 5 0 0 {HALF_PI}</pose></include>'
+        stage = stage_of(world(tmp_path / "a.sdf", f'<model name="m"><link name="base"/>{include}</model>'), tmp_path)
+        mass = UsdPhysics.MassAPI(stage.GetPrimAtPath("/room/m/a"))
+        # In the frame of the link, which is that of the part moved by 0 1 0.
+        assert tuple(mass.GetCenterOfMassAttr().Get()) == pytest.approx((0.5, -1, 0))
 
     def test_lights_that_are_included_are_left_out(self, tmp_path: Path):
         write(tmp_path / "models/lamp/model.sdf", sdf('<light name="lamp" type="point"/>'))
@@ -669,6 +711,53 @@ class TestMeshes:
         (note,) = notes_of(read_scene(self.mesh_world(tmp_path / "a.sdf", "<uri>bomb.dae</uri>")))
         assert "line 2: it declares the XML entity 'x'" in note
 
+    @pytest.mark.parametrize(
+        ("count", "repeats", "last", "reason"),
+        [
+            (40, 2, "<instance_geometry url='#a-lib'/>", "line 8: it has more than 100,000 nodes and geometries"),
+            # Without geometries, the nodes alone are too many.
+            (40, 2, "", "line 8: it has more than 100,000 nodes and geometries"),
+            (3, 1, "<instance_node url='#n0'/>", "line 9: the node 'n0' contains itself"),
+            (5000, 1, "", "its nodes are nested more than 100 deep"),
+        ],
+    )
+    def test_collada_whose_nodes_multiply_is_not_read(
+        self, tmp_path: Path, count: int, repeats: int, last: str, reason: str
+    ):
+        pytest.importorskip("collada", reason="needs the extra sdf")
+        instances = [f"<instance_node url='#n{index + 1}'/>" * repeats for index in range(count)]
+        nodes = "".join(f"<node id='n{index}'>{inner}</node>" for index, inner in enumerate([*instances, last]))
+        root = "<node id='root'><instance_node url='#n0'/></node>"
+        text = DAE.format(geometries="", nodes=root).replace(
+            "<scene>", f"<library_nodes>{nodes}</library_nodes>\n<scene>"
+        )
+        write(tmp_path / "bomb.dae", text)
+        (note,) = notes_of(read_scene(self.mesh_world(tmp_path / "a.sdf", "<uri>bomb.dae</uri>")))
+        assert reason in note
+
+    def test_collada_may_repeat_nodes(self, tmp_path: Path):
+        pytest.importorskip("collada", reason="needs the extra sdf")
+        text = dae(left=0).replace("<library_visual_scenes>", "<library_nodes>", 1)
+        text = text.replace('<visual_scene id="scene">', "").replace("</visual_scene>", "")
+        places = "".join(
+            f"<node><translate>{x} 0 0</translate><instance_node url='#left'/></node>" for x in (0, 100, 200)
+        )
+        scene = f'</library_nodes><library_visual_scenes><visual_scene id="scene">{places}</visual_scene>'
+        write(tmp_path / "row.dae", text.replace("</library_visual_scenes>", f"{scene}</library_visual_scenes>"))
+        (found,) = read_scene(self.mesh_world(tmp_path / "a.sdf", "<uri>row.dae</uri>")).objects
+        assert found.box is not None
+        assert (found.box.lower, found.box.upper) == (pytest.approx((0, 0, 0)), pytest.approx((3, 1, 0)))
+
+    def test_a_mesh_that_cannot_be_read_is_tried_once(self, tmp_path: Path, monkeypatch: pytest.MonkeyPatch):
+        loaded: list[Path] = []
+        monkeypatch.setattr(
+            meshes, "load_scene", lambda path, *_, **options: loaded.append(path) or load_scene(path, *_, **options)
+        )
+        write(tmp_path / "part.stl", "solid nothing\nendsolid nothing\n")
+        visuals = "\n".join(visual("<mesh><uri>part.stl</uri></mesh>", name=name) for name in "abc")
+        scene = read_scene(world(tmp_path / "a.sdf", f'<model name="m"><link name="l">{visuals}</link></model>'))
+        assert (len(loaded), len(notes_of(scene))) == (1, 3)
+
 
 def jointed(joint: str, turn: str = "0") -> str:
     cube = visual(box(0.1, 0.1, 0.1))
@@ -752,6 +841,9 @@ class TestJoints:
 BOMB = '<?xml version="1.0"?>\n<!DOCTYPE sdf [<!ENTITY a "aaaaaaaaaa">\n<!ENTITY b "&a;&a;&a;&a;">]>\n'
 
 
+TOO_MANY = "it has more than 500 models, links, visuals, joints and frames, with those that it includes"
+
+
 class TestHostileFiles:
     @pytest.mark.parametrize(
         ("text", "reason"),
@@ -832,12 +924,38 @@ class TestHostileFiles:
             read_scene(path)
 
     def test_includes_that_multiply_are_an_error(self, tmp_path: Path, monkeypatch: pytest.MonkeyPatch):
-        monkeypatch.setattr(sdf_reader, "_MAX_MODELS", 500)
+        monkeypatch.setattr(sdf_reader, "_MAX_ELEMENTS", 500)
         for level in range(20):
             include = f"<include><uri>model://m{level + 1}</uri></include>"
             write(tmp_path / f"models/m{level}/model.sdf", sdf(f'<model name="m">{include}{include}</model>'))
         path = world(tmp_path / "w.sdf", "<include><uri>model://m0</uri></include>")
-        with pytest.raises(SceneError, match=r"it has more than 500 models, with those that it includes"):
+        with pytest.raises(SceneError, match=TOO_MANY):
+            read_scene(path)
+
+    @pytest.mark.parametrize(
+        "content",
+        [
+            f'<model name="m"><link name="l">{visual(box(1, 1, 1)) * 60}</link></model>',
+            f'<model name="m">{"<link/>" * 60}</model>',
+            f'<model name="m">{"<frame/>" * 60}</model>',
+            f'<model name="m">{"<joint/>" * 60}</model>',
+            # Neither what is left out nor a light is free.
+            f'<model name="m">{"<plugin/>" * 8000}</model>',
+            f'<light name="m">{"<plugin/>" * 8000}</light>',
+        ],
+    )
+    def test_everything_in_includes_is_counted(self, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, content: str):
+        monkeypatch.setattr(sdf_reader, "_MAX_ELEMENTS", 500)
+        write(tmp_path / "models/m/model.sdf", sdf(content))
+        include = "<include><uri>model://m</uri></include>"
+        read_scene(world(tmp_path / "w.sdf", cube_model("a", "") + include * 5))
+        with pytest.raises(SceneError, match=TOO_MANY):
+            read_scene(world(tmp_path / "w.sdf", include * 10))
+
+    def test_includes_of_lights_are_counted(self, tmp_path: Path, monkeypatch: pytest.MonkeyPatch):
+        monkeypatch.setattr(sdf_reader, "_MAX_ELEMENTS", 500)
+        path = world(tmp_path / "w.sdf", "<include><uri>model://sun</uri></include>" * 501)
+        with pytest.raises(SceneError, match=TOO_MANY):
             read_scene(path)
 
     def test_many_notes_are_counted(self, tmp_path: Path):
@@ -863,10 +981,15 @@ class TestHostileFiles:
 
     def test_odd_values_do_not_stop_the_reader(self, tmp_path: Path):
         paint = "<material><diffuse>red</diffuse></material>"
-        ground = visual("<plane><normal>0 0 0</normal></plane>")
+        ground = "".join(visual(f"<plane><normal>{x} 0 0</normal></plane>\n") for x in ("0", "1e-200"))
         body = f"""<model><link>{visual("<box><size>1 1</size></box>", paint)}<visual name="v"/></link>
         <joint type="revolute"><parent/><child/></joint><include/></model>
         <model name="m"><link name="l"><inertial><mass>heavy</mass></inertial>{ground}</link></model>"""
         scene = read_scene(world(tmp_path / "w.sdf", body))
         assert [obj.prim_path for obj in scene.objects] == ["/room/model", "/room/m"]
-        assert len(notes_of(scene)) == 6
+        ground_box = scene.by_path["/room/m"].box
+        assert ground_box is not None
+        assert ground_box.size == pytest.approx((1, 1, 0))
+        notes = notes_of(scene)
+        assert len(notes) == 8
+        assert sum("the normal of the plane is 0 0 0, expected a direction; it is" in note for note in notes) == 2

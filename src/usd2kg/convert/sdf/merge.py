@@ -28,7 +28,8 @@ def merge_models(model: Model, merged: Model, notes: Notes) -> Model:
 
     def moved_link(link: Link) -> Link:
         visuals = tuple(replace(visual, pose=moved(visual.pose, has_default=True)) for visual in link.visuals)
-        return replace(link, pose=moved(link.pose), visuals=visuals)
+        center = link.center_of_mass and moved(link.center_of_mass, has_default=True)
+        return replace(link, pose=moved(link.pose), visuals=visuals, center_of_mass=center)
 
     def moved_joint(joint: Joint) -> Joint:
         axis = joint.axis and replace(joint.axis, expressed_in=renamed(joint.axis.expressed_in))

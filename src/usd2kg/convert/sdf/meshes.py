@@ -12,6 +12,7 @@ from usd2kg.convert.sdf.resources import ResourceError, Resources
 from usd2kg.convert.sdf.values import Matrix
 from usd2kg.convert.sdf.xml_tree import XmlError
 from usd2kg.convert.trimesh_files import load_scene
+from usd2kg.errors import SceneError
 
 if TYPE_CHECKING:
     import trimesh
@@ -39,18 +40,26 @@ class MeshFiles:
 
     def __init__(self, resources: Resources) -> None:
         self._resources = resources
-        self._parts: dict[Path, tuple[MeshPart, ...]] = {}
+        self._parts: dict[Path, tuple[MeshPart, ...] | SceneError] = {}
 
     def parts(self, path: Path) -> tuple[MeshPart, ...]:
         """Return the meshes in a file.
 
         Raises:
-            SceneError: trimesh cannot read it, or it has no triangles.
+            SceneError: trimesh cannot read it, or it has no triangles; the same for each call.
             ModuleNotFoundError: trimesh, or for COLLADA pycollada, is not installed.
         """
-        if path not in self._parts:
-            self._parts[path] = tuple(self._read(path))
-        return self._parts[path]
+        found = self._parts.get(path)
+        if found is None:
+            try:
+                found = tuple(self._read(path))
+            except SceneError as error:
+                found = error
+            self._parts[path] = found
+        if isinstance(found, SceneError):
+            # An exception that is raised again would keep the frames of each time.
+            raise found.with_traceback(None)
+        return found
 
     def _read(self, path: Path) -> list[MeshPart]:
         trimesh = import_module("trimesh")

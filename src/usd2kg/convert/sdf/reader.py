@@ -11,17 +11,23 @@ import numpy as np
 from usd2kg.convert.converted import parse_error
 from usd2kg.convert.sdf.elements import first_waypoint, read_axis, read_frame, read_link, read_pose, skin_of
 from usd2kg.convert.sdf.merge import merge_models
-from usd2kg.convert.sdf.model import Asset, Joint, Model, Pose, World
+from usd2kg.convert.sdf.model import Asset, Frame, Joint, Link, Model, Pose, World
 from usd2kg.convert.sdf.notes import Notes
 from usd2kg.convert.sdf.resources import ResourceError, Resources, asset_name
 from usd2kg.convert.sdf.values import is_true
-from usd2kg.convert.sdf.xml_tree import XmlElement, XmlError, read_xml
+from usd2kg.convert.sdf.xml_files import XmlFiles
+from usd2kg.convert.sdf.xml_tree import XmlElement, XmlError
+from usd2kg.errors import SceneError
 
 __all__ = ["EXPECTED", "SdfReader"]
 
 EXPECTED = "an SDFormat file, whose root element is <sdf> and has a world or a model"
-_MAX_MODELS = 50_000
-"""Models of a world, with all that are included; few lines can include without end."""
+_MAX_ELEMENTS = 500_000
+"""Models, links, visuals, joints, frames and includes of a world, with all that are included.
+
+Few lines can include without end. Each kB of an included file counts as one, too, whatever is in it.
+"""
+_BYTES_PER_COUNT = 1024
 _MAX_LEVELS = 32
 """Models in each other."""
 _VERSION = re.compile(r"1\.([0-9]{1,2})")
@@ -55,16 +61,17 @@ class SdfReader:
         self._path = path
         self._resources = resources
         self._notes = notes
+        self._files = XmlFiles()
         self._count = 0
 
     def read(self) -> World:
         """Return the first world of the file, or its models.
 
         Raises:
-            SceneError: it is no SDFormat file, includes itself, or has more models than a scene can have.
+            SceneError: it is no SDFormat file, includes itself, or has more elements than a scene can have.
         """
         try:
-            root = read_xml(self._path)
+            root = self._files.read(self._path)
         except XmlError as error:
             raise parse_error(self._path, error, EXPECTED) from error
         if root.tag != "sdf":
@@ -96,7 +103,7 @@ class SdfReader:
         return World(
             element.name(),
             tuple(self._models(element, place)),
-            tuple(read_frame(frame, place.path, self._notes) for frame in element.find_all("frame")),
+            tuple(self._frames(element, place)),
             tuple(self._joints(element, place)),
         )
 
@@ -124,9 +131,9 @@ class SdfReader:
             placement_frame=element.name("placement_frame"),
             canonical_link=element.name("canonical_link"),
             is_static=is_true(element.text_of("static")),
-            links=tuple(read_link(link, path, notes) for link in element.find_all("link")),
+            links=tuple(self._links(element, place)),
             joints=tuple(self._joints(element, place)),
-            frames=tuple(read_frame(frame, path, notes) for frame in element.find_all("frame")),
+            frames=tuple(self._frames(element, place)),
             models=tuple(self._models(element, inner)),
         )
         for include in element.find_all("include"):
@@ -142,7 +149,7 @@ class SdfReader:
         pose = read_pose(element, path, notes)
         if element.find("pose") is None:
             pose = first_waypoint(element, path, notes) or pose
-        links = [read_link(link, path, notes) for link in element.find_all("link")]
+        links = list(self._links(element, place))
         skin = skin_of(element, path, notes)
         if skin is not None:
             links.append(skin)
@@ -156,8 +163,19 @@ class SdfReader:
             links=tuple(links),
         )
 
+    def _links(self, parent: XmlElement, place: _Place) -> Iterator[Link]:
+        for element in parent.find_all("link"):
+            self._count_elements(element, place, 1 + sum(1 for _ in element.find_all("visual")))
+            yield read_link(element, place.path, self._notes)
+
+    def _frames(self, parent: XmlElement, place: _Place) -> Iterator[Frame]:
+        for element in parent.find_all("frame"):
+            self._count_elements(element, place)
+            yield read_frame(element, place.path, self._notes)
+
     def _joints(self, parent: XmlElement, place: _Place) -> Iterator[Joint]:
         for element in parent.find_all("joint"):
+            self._count_elements(element, place)
             yield Joint(
                 name=element.name(),
                 type=element.name("type"),
@@ -170,17 +188,23 @@ class SdfReader:
             )
 
     def _count_model(self, element: XmlElement, place: _Place) -> None:
-        self._count += 1
-        found = None
-        if self._count > _MAX_MODELS:
-            found = f"more than {_MAX_MODELS:,} models, with those that it includes"
-        elif place.level >= _MAX_LEVELS:
-            found = f"models that are nested more than {_MAX_LEVELS} deep"
-        if found is not None:
-            raise parse_error(self._path, f"{place.path.name}, line {element.line}: it has {found}", "fewer models")
+        self._count_elements(element, place)
+        if place.level >= _MAX_LEVELS:
+            raise self._too_much(element, place, f"models that are nested more than {_MAX_LEVELS} deep")
+
+    def _count_elements(self, element: XmlElement, place: _Place, count: int = 1) -> None:
+        self._count += count
+        if self._count > _MAX_ELEMENTS:
+            kinds = "models, links, visuals, joints and frames"
+            found = f"more than {_MAX_ELEMENTS:,} {kinds}, with those that it includes"
+            raise self._too_much(element, place, found)
+
+    def _too_much(self, element: XmlElement, place: _Place, found: str) -> SceneError:
+        return parse_error(self._path, f"{place.path.name}, line {element.line}: it has {found}", "fewer of them")
 
     def _include(self, element: XmlElement, place: _Place) -> Model | None:
         """Return the model that an include names; one without links if it cannot be found; None for a light."""
+        self._count_elements(element, place)
         uri = element.text_of("uri")
         if not uri:
             self._notes.add(place.path, element, "the include has no <uri>; it is left out")
@@ -219,14 +243,14 @@ class SdfReader:
             XmlError, OSError: it cannot be read.
             SceneError: it is among the files that include it.
         """
-        path, texts = self._model_file(self._resources.find(uri, place.path.parent))
+        path, texts = self._model_file(self._resources.find(uri, place.path.parent), element, place)
         if path in place.files:
             raise parse_error(
                 self._path,
                 f"{place.path.name}, line {element.line}: {uri} includes itself",
                 "includes without a circle",
             )
-        root = read_xml(path)
+        root = self._read_included(path, element, place)
         if root.tag != "sdf":
             raise ResourceError(f"the root element of {path.name} is <{root.tag}>, expected <sdf>")
         inner = self._place(root, path, place.files, place.level)
@@ -237,11 +261,14 @@ class SdfReader:
             raise ResourceError(f"{path.name} has no model")
         return (self._model if first.tag == "model" else self._actor)(first, inner), texts
 
-    def _model_file(self, found: Path) -> tuple[Path, Mapping[str, str]]:
+    def _read_included(self, path: Path, element: XmlElement, place: _Place) -> XmlElement:
+        self._count_elements(element, place, path.stat().st_size // _BYTES_PER_COUNT)
+        return self._files.read(path)
+
+    def _model_file(self, found: Path, element: XmlElement, place: _Place) -> tuple[Path, Mapping[str, str]]:
         """Return the SDFormat file of a folder of a model, that of the highest version, and the texts of its config."""
         folder = found if found.is_dir() else found.parent
-        config = next((folder / name for name in _CONFIGS if (folder / name).is_file()), None)
-        root = None if config is None else read_xml(self._resources.find(config.name, folder))
+        root = self._config(folder, element, place)
         texts = {} if root is None else {tag: root.text_of(tag) for tag in ("name", "description")}
         texts = {tag: text for tag, text in texts.items() if text}
         if found.is_file():
@@ -249,6 +276,18 @@ class SdfReader:
         files = {} if root is None else {_version_of(entry): entry.text for entry in root.find_all("sdf") if entry.text}
         name = files[max(files)] if files else "model.sdf"
         return self._resources.find(name, folder), texts
+
+    def _config(self, folder: Path, element: XmlElement, place: _Place) -> XmlElement | None:
+        """Return the config of a folder of a model; None without one, or with a note if it cannot be read."""
+        name = next((name for name in _CONFIGS if (folder / name).is_file()), None)
+        if name is None:
+            return None
+        try:
+            return self._read_included(self._resources.find(name, folder), element, place)
+        except (ResourceError, XmlError, OSError) as error:
+            text = f"the {name} of {element.text_of('uri')} is not read ({error}); the model has no texts"
+            self._notes.add(place.path, element, text)
+            return None
 
 
 def _is_merged(include: XmlElement) -> bool:

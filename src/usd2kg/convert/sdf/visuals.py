@@ -1,5 +1,6 @@
 """Visuals → prims: solids of USD, planes, polylines and meshes, with colours."""
 
+import math
 from collections.abc import Callable
 from pathlib import Path
 
@@ -104,8 +105,10 @@ class VisualAuthor:
     def _plane(self, shape: XmlElement, visual: Visual, parent: str, matrix: Matrix) -> list[Usd.Prim]:
         normal = self._numbers(shape, visual, "normal", 3, (0.0, 0.0, 1.0))
         size = self._numbers(shape, visual, "size", 2, (1.0, 1.0))
-        mesh = plane(normal if any(normal) else (0.0, 0.0, 1.0), size)
-        return [self._define_mesh(parent, visual.name, mesh, matrix)]
+        if math.hypot(*normal) < 1e-9:
+            self._note(visual, shape, "the normal of the plane is 0 0 0, expected a direction; it is taken as 0 0 1")
+            normal = (0.0, 0.0, 1.0)
+        return [self._define_mesh(parent, visual.name, plane(normal, size), matrix)]
 
     def _polyline(self, shape: XmlElement, visual: Visual, parent: str, matrix: Matrix) -> list[Usd.Prim]:
         # The other polylines of a visual are its holes.

@@ -121,5 +121,8 @@ def parse_safely(
         parser.Parse(data[found.end() :] if found else data, True)
     except expat.ExpatError as error:
         raise XmlError(f"line {skipped + error.lineno}: {expat.ErrorString(error.code)}") from error
-    except (LookupError, UnicodeError) as error:
+    except XmlError:
+        raise
+    except (LookupError, ValueError) as error:
+        # expat knows no encodings of several bytes but those of Unicode.
         raise XmlError(f"line {line()}: {error}") from error
