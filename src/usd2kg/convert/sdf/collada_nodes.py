@@ -8,7 +8,7 @@ from usd2kg.convert.sdf.xml_tree import XmlError
 
 __all__ = ["ColladaNode", "check_nodes"]
 
-_MAX_PARTS = 100_000
+_MAX_PARTS = 10_000
 """Nodes and geometries of the scenes of a file, each as often as it is repeated."""
 _MAX_DEPTH = 100
 """Nesting of nodes, as that of elements; trimesh and pycollada descend by recursion."""
@@ -33,7 +33,7 @@ def check_nodes(nodes: Iterable[ColladaNode]) -> None:
     """Refuse the nodes of a file if a parser that follows each `instance_node` would hardly come to an end.
 
     Raises:
-        XmlError: a node contains itself, they are nested more than 100 deep, or the scenes have more than 100,000
+        XmlError: a node contains itself, they are nested more than 100 deep, or the scenes have more than 10,000
             nodes and geometries.
     """
     nodes = tuple(nodes)
