@@ -714,9 +714,9 @@ class TestMeshes:
     @pytest.mark.parametrize(
         ("count", "repeats", "last", "reason"),
         [
-            (40, 2, "<instance_geometry url='#a-lib'/>", "line 8: it has more than 100,000 nodes and geometries"),
+            (40, 2, "<instance_geometry url='#a-lib'/>", "line 8: it has more than 10,000 nodes and geometries"),
             # Without geometries, the nodes alone are too many.
-            (40, 2, "", "line 8: it has more than 100,000 nodes and geometries"),
+            (40, 2, "", "line 8: it has more than 10,000 nodes and geometries"),
             (3, 1, "<instance_node url='#n0'/>", "line 9: the node 'n0' contains itself"),
             (5000, 1, "", "its nodes are nested more than 100 deep"),
         ],
