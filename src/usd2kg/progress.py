@@ -25,6 +25,7 @@ _TEXTS = {
     "relate": "finding relations",
     "instantiate": "making the graph",
     "write": "writing the graph",
+    "validate": "checking the graph",
 }
 """Step of `usd2kg.tracing` → text beside the bar."""
 

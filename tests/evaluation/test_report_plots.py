@@ -170,3 +170,10 @@ def test_ignores_the_users_matplotlib_settings():
     with mpl.rc_context({"font.size": 30, "axes.facecolor": "red"}):
         assert plots.plot_accuracy(tiny(), "a").svg == plain
         assert mpl.rcParams["font.size"] == 30
+
+
+@pytest.mark.usefixtures("svg_only")
+def test_the_accuracy_plot_shows_the_published_results():
+    figure = plots.plot_accuracy(tiny(), "a")
+    assert "published, another scene" in texts(figure.svg)
+    assert "the best: 96 % Gemini 2.5 Flash A, semantic; 89 % Gemini 3 Flash B, abbreviated" in figure.caption

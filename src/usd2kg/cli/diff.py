@@ -98,6 +98,7 @@ def diff_command(
     from usd2kg.diff import compare_objects  # noqa: PLC0415
     from usd2kg.diff.versions import VersionOptions, read_versions  # noqa: PLC0415
     from usd2kg.files import check_writable  # noqa: PLC0415
+    from usd2kg.progress import show_steps  # noqa: PLC0415
 
     file_format = _choose_format(file_format, is_json=json, graph=graph)
     limits, kinds = tolerances.tolerances(), _parse_kinds(relation_kinds)
@@ -105,7 +106,8 @@ def diff_command(
         check_writable(output)
         check_files([output], [old, new, ontology], reading)
     options = VersionOptions(reading.read_options(), kinds, base, is_grounded=not no_ground)
-    before, after = read_versions(old, new, partial(_open_tbox, ontology), options)
+    with show_steps("read", "ground", "relate", "instantiate"):
+        before, after = read_versions(old, new, partial(_open_tbox, ontology), options)
     if file_format == "sparql":
         title = f"{to_single_line(str(old))} -> {to_single_line(str(new))}"
         is_same = _write_update(before, after, title, graph, output)

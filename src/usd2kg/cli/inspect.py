@@ -29,6 +29,7 @@ from usd2kg.cli.text_table import format_table
 from usd2kg.errors import SceneError
 
 if TYPE_CHECKING:
+    from usd2kg.progress import show_steps
     from usd2kg.scene import Diagnostic, Label, ReadOptions, Scene, SceneObject, ShapeDescriptors
 
 __all__ = ["inspect_command"]
@@ -62,7 +63,8 @@ def inspect_command(
     if why is not None:
         _explain(scene, why, options, is_json=json)
         return
-    found = read_scene(scene, options=options)
+    with show_steps("read"):
+        found = read_scene(scene, options=options)
     measured = None
     if shapes:
         notes: list[Diagnostic] = []

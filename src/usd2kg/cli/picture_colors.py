@@ -23,15 +23,17 @@ def find_colors(source: Path, reading: "ReadOptions", mode: "ColorMode", options
     from usd2kg.grounding import apply_decisions, ground, make_grounder, read_decisions  # noqa: PLC0415
     from usd2kg.grounding.built_in_choice import stated_places  # noqa: PLC0415
     from usd2kg.pipeline import open_tbox  # noqa: PLC0415
+    from usd2kg.progress import show_steps  # noqa: PLC0415
     from usd2kg.relations import find_relations  # noqa: PLC0415
     from usd2kg.scene import read_scene  # noqa: PLC0415
 
-    scene = read_scene(source, options=reading)
-    tbox = open_tbox(options.ontology, scene, stated=stated_places(options.decisions))
-    decisions = read_decisions(options.decisions, tbox) if options.decisions is not None else {}
-    suggestions = ground(scene, tbox, make_grounder("lexical"))
-    grounding = apply_decisions(suggestions, decisions, scene, tbox)
-    relations = find_relations(scene, tbox, grounding)
+    with show_steps("read", "ground", "relate"):
+        scene = read_scene(source, options=reading)
+        tbox = open_tbox(options.ontology, scene, stated=stated_places(options.decisions))
+        decisions = read_decisions(options.decisions, tbox) if options.decisions is not None else {}
+        suggestions = ground(scene, tbox, make_grounder("lexical"))
+        grounding = apply_decisions(suggestions, decisions, scene, tbox)
+        relations = find_relations(scene, tbox, grounding)
     if mode is not ColorMode.ANSWER:
         return color_scene(mode, tbox, grounding, suggestions, relations)
     from usd2kg.assistant import ask_offline  # noqa: PLC0415

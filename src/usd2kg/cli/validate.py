@@ -48,6 +48,7 @@ def validate_command(
     json: JsonOutput = False,
 ) -> None:
     """Check a graph: its shapes, its ontology, and its plausibility. Exit code 1 if there are findings."""
+    from usd2kg.progress import show_steps  # noqa: PLC0415
     from usd2kg.stores import open_graph  # noqa: PLC0415 - loads OpenUSD, too slow for --help
     from usd2kg.validation import elk_jars as find_elk_jars  # noqa: PLC0415
     from usd2kg.validation import read_rules, validate_graph  # noqa: PLC0415
@@ -60,7 +61,8 @@ def validate_command(
     store = open_graph(graph, scene)
     closure = _open_closure(store, ontology)
     answer = _ask_elk(store, closure, elk_jars, reasoner_limit) if reasoner is not None else None
-    report = validate_graph(store, closure, chosen, answer)
+    with show_steps("validate"):
+        report = validate_graph(store, closure, chosen, answer)
     for skipped in report.skipped:
         notify(f"not checked: {', '.join(skipped.rules)}: {skipped.reason}")
     if json:

@@ -4,11 +4,16 @@ import getpass
 from collections.abc import Callable
 from contextlib import closing
 from pathlib import Path
+from typing import TYPE_CHECKING
 from urllib.parse import quote
 
 from usd2kg.endpoint.listening import Address, open_socket, url_of
 from usd2kg.errors import Usd2kgError
-from usd2kg.studio.project import ProjectSources, open_project
+from usd2kg.progress import show_steps
+from usd2kg.studio.project import Project, ProjectSources, open_project
+
+if TYPE_CHECKING:
+    from usd2kg.studio.session import StudioSession
 
 __all__ = ["serve_studio"]
 
@@ -45,7 +50,6 @@ def serve_studio(
     except ModuleNotFoundError as error:
         raise Usd2kgError(f"studio: {error.name} is not installed; run: pip install 'usd2kg[studio]'") from error
     from usd2kg.endpoint.app_files import read_app_files  # noqa: PLC0415
-    from usd2kg.studio.open_session import open_session  # noqa: PLC0415
     from usd2kg.studio.other_version import read_other_version  # noqa: PLC0415
 
     key = choose_key(is_local=address.is_local)
@@ -53,7 +57,7 @@ def serve_studio(
     with (
         open_socket(address) as socket,
         open_project(folder, sources) as project,
-        closing(open_session(project)) as session,
+        closing(_open_with_progress(project)) as session,
     ):
         other = None if compared is None else read_other_version(compared, project.sources, session.tbox)
         # Whoever reads the URL below may connect before the server accepts.
@@ -77,3 +81,10 @@ def _login_name() -> str:
         return getpass.getuser()
     except (OSError, KeyError):
         return "reviewer"
+
+
+def _open_with_progress(project: Project) -> "StudioSession":
+    from usd2kg.studio.open_session import open_session  # noqa: PLC0415 - loads OpenUSD
+
+    with show_steps("read", "ground", "relate"):
+        return open_session(project)

@@ -17,6 +17,7 @@ from usd2kg.evaluation.report.canvas import (
     to_figure,
 )
 from usd2kg.evaluation.report.cell_text import significant_digits
+from usd2kg.evaluation.report.published import AS_PUBLISHED, published_main
 from usd2kg.evaluation.run_matrix import CellResult, SceneResult
 from usd2kg.grounding import NamingRegime
 
@@ -27,24 +28,46 @@ __all__ = ["plot_ablation", "plot_accuracy", "plot_cost", "plot_reliability", "p
 
 _SEMANTIC = NamingRegime.SEMANTIC.value
 _DARK = "#333333"
+_GREY = "#888888"
 _BARS_WIDTH = 0.8
 """Width of a group of bars; 1 is the distance between groups."""
 
 
 def plot_accuracy(result: SceneResult, file: str) -> Figure:
-    """Return bars of EMA by naming regime, with 95 % intervals by distinct name."""
+    """Return bars of EMA by naming regime, with 95 % intervals by distinct name, and ticks of the published results."""
     runs, methods = group_repeats(result), list_methods(result)
     with open_canvas(8, 3.6) as (canvas, [axes]):
         for index, method in enumerate(methods):
             shown = [(x, runs[method, regime]) for x, regime in enumerate(REGIMES) if (method, regime) in runs]
             if shown:
                 _vertical_bars(axes, [x for x, _ in shown], [done for _, done in shown], index, len(methods), method)
+        best = _published_ticks(axes)
+        axes.set_xlim(-0.6, len(REGIMES) - 0.4)
         axes.set_xticks(range(len(REGIMES)), REGIMES)
         axes.grid(visible=False, axis="x")
         axes.set(ylim=(0, 100), ylabel="EMA, %")
         add_legend(canvas, axes)
-        caption = f"{result.spec.name}: exact match by naming regime; lines are 95 % intervals by distinct name."
+        caption = (
+            f"{result.spec.name}: exact match by naming regime; lines are 95 % intervals by distinct name. Grey ticks "
+            f"are the methods of the study, {AS_PUBLISHED}; the best: {best}."
+        )
         return to_figure(canvas, file, caption)
+
+
+def _published_ticks(axes: "Axes") -> str:
+    """Draw the published results of all methods right of each group of bars, and return the best of each regime."""
+    best: list[str] = []
+    for place, regime in enumerate(REGIMES):
+        results = ((method, done.get(regime)) for method, done in published_main().items())
+        found = {method: one.ema for method, one in results if one is not None and one.ema is not None}
+        if not found:
+            continue
+        label = None if best else "published, another scene"
+        places = [place + _BARS_WIDTH / 2 + 0.05] * len(found)
+        axes.scatter(places, list(found.values()), 90, color=_GREY, marker="_", label=label)
+        method = max(found, key=lambda name: (found[name], name))
+        best.append(f"{found[method]:.0f} % {method}, {regime}")
+    return "; ".join(best)
 
 
 def _bar_centers(places: Sequence[int], index: int, total: int) -> list[float]:
