@@ -5,7 +5,7 @@ BIN := .venv/bin
 READY := .venv/.ready
 
 .DEFAULT_GOAL := help
-.PHONY: help setup demo test test-docs test-slow test-studio web web-check data data-check owl-jars elk-jars fuseki-jar sssom-check-env docs sbom audit fuzz lint types layers accuracy accuracy-check wheel compatibility lock scene clean
+.PHONY: help setup demo test test-docs test-slow test-studio web web-check data data-check owl-jars elk-jars fuseki-jar sssom-check-env docs sbom release-check audit fuzz lint types layers accuracy accuracy-check wheel compatibility lock scene clean
 
 help: ## Show this list
 	@grep -E '^[a-z-]+:.*##' $(MAKEFILE_LIST) | sed -E 's/:[^#]*## /\t/' | expand -t 12
@@ -62,6 +62,10 @@ sbom: build/supply/bin/cyclonedx-py ## Write the bill of materials of the wheel'
 	build/supply/bin/cyclonedx-py requirements requirements/run.txt --pyproject pyproject.toml --mc-type library \
 	  --output-reproducible --output-format JSON --output-file dist/usd2kg.cdx.json
 
+release-check: wheel build/supply/bin/cyclonedx-py ## Build the sdist, too, and check both for publication
+	$(BIN)/uv build --quiet --sdist --no-build-isolation --python $(BIN)/python
+	build/supply/bin/twine check --strict dist/*.whl dist/*.tar.gz
+
 audit: build/supply/bin/cyclonedx-py ## Look for known vulnerabilities of all pinned dependencies; asks the registries
 	build/supply/bin/pip-audit --disable-pip --require-hashes --requirement requirements/run.txt
 	build/supply/bin/pip-audit --disable-pip --require-hashes --requirement requirements/dev.txt
@@ -116,7 +120,7 @@ lock: $(READY) ## Pin the dependencies of pyproject.toml in requirements/, with 
 	  --group dev --output-file requirements/dev.txt pyproject.toml
 	$(BIN)/uv pip compile --quiet --universal --python-version 3.11 --generate-hashes --no-header --no-annotate \
 	  --output-file requirements/run.txt pyproject.toml
-	printf 'cyclonedx-bom\npip-audit\n' | $(BIN)/uv pip compile --quiet --universal --python-version 3.11 \
+	printf 'cyclonedx-bom\npip-audit\ntwine\n' | $(BIN)/uv pip compile --quiet --universal --python-version 3.11 \
 	  --generate-hashes --no-header --no-annotate --output-file requirements/supply.txt -
 	printf 'black\nmkdocs\nmkdocs-material\nmkdocstrings-python\n' | $(BIN)/uv pip compile --quiet --universal --python-version 3.11 \
 	  --generate-hashes --no-header --no-annotate --output-file requirements/docs.txt -
