@@ -11,6 +11,7 @@ from usd2kg.cli.options.bundles import OptionBundle
 from usd2kg.cli.options.common import BUILT_IN_ONTOLOGIES
 from usd2kg.cli.project_file import ALLOWED_ANYWHERE, CommandOption, read_project_options, walk_options
 from usd2kg.errors import Usd2kgError
+from usd2kg.grounding.registry import GROUNDERS
 from usd2kg.ontology import load_tbox
 from usd2kg.query import load_graph
 
@@ -137,6 +138,12 @@ class TestWhere:
             Usd2kgError, match=r"download.*neither in the current folder nor above it.*--no-project-file"
         ):
             arguments("build", "download/a.usd")
+
+    @pytest.mark.parametrize("name", GROUNDERS)
+    def test_a_file_elsewhere_may_choose_a_grounder_without_a_server(self, name: str):
+        file = write(f'grounder = "{name}"', Path("download"))
+        (file.parent / "a.usd").touch()
+        assert arguments("build", "download/a.usd") == ["build", f"--grounder={name}", "download/a.usd"]
 
     def test_what_a_file_elsewhere_may_set_writes_no_file(self):
         assert OPTIONS.keys() >= ALLOWED_ANYWHERE

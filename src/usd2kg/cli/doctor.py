@@ -20,6 +20,8 @@ __all__ = ["doctor_command"]
 _REQUIREMENT = re.compile(r"(?P<name>[\w.-]+)[^;]*(?:;.*extra == ['\"](?P<extra>\w+)['\"])?")
 """A requirement of a package's metadata: its name, and the extra in its marker."""
 _BYTES_PER_MIB = 1 << 20
+_PROGRAMS = ("java", "swipl", "urdf_usd_converter", "mujoco_usd_converter")
+"""Programs that usd2kg runs if they are installed."""
 
 
 class _Package(NamedTuple):
@@ -42,7 +44,7 @@ def doctor_command(json: JsonOutput = False) -> None:
         "packages": {one.name: one.version for one in packages if not one.extra},
         "extras": _extras(packages),
         "page_of_the_studio": _has_page(),
-        "programs": {name: shutil.which(name) for name in ("java", "swipl")},
+        "programs": {name: shutil.which(name) for name in _PROGRAMS},
         "caches": dict(_caches()),
         "credentials": _credentials(os.environ),
     }

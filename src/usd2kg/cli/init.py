@@ -28,6 +28,7 @@ _EXAMPLES = {
     "base": '"https://example.org/scene/"',
     "evidence": '"name,geometry,hierarchy"',
     "exclude": '["/World/Lights/**"]',
+    "grounder": '"lexical"',
     "include": '["/World/Props/*"]',
     "kind": '["component"]',
     "metres-per-unit": "0.01",
@@ -69,7 +70,8 @@ def _content(app: typer.Typer) -> str:
     for _, found in walk_options(app):
         for option in found:
             options.setdefault(option.key, option)
-    return _INTRODUCTION + "".join(_entry(options[key]) for key in sorted(ALLOWED_ANYWHERE & options.keys()))
+    common = (ALLOWED_ANYWHERE | {"grounder"}) & options.keys()
+    return _INTRODUCTION + "".join(_entry(options[key]) for key in sorted(common))
 
 
 def _entry(option: CommandOption) -> str:

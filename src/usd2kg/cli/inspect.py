@@ -29,7 +29,6 @@ from usd2kg.cli.text_table import format_table
 from usd2kg.errors import SceneError
 
 if TYPE_CHECKING:
-    from usd2kg.progress import show_steps
     from usd2kg.scene import Diagnostic, Label, ReadOptions, Scene, SceneObject, ShapeDescriptors
 
 __all__ = ["inspect_command"]
@@ -57,6 +56,7 @@ def inspect_command(
     json: JsonOutput = False,
 ) -> None:
     """List the objects of a scene with their evidence, counts of what was left out and why, and diagnostics."""
+    from usd2kg.progress import show_steps  # noqa: PLC0415
     from usd2kg.scene import describe_shapes, read_scene  # noqa: PLC0415 - loads OpenUSD, too slow for --help
 
     options = reading.read_options()

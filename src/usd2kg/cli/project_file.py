@@ -31,6 +31,7 @@ ALLOWED_ANYWHERE = frozenset(
 )
 """Options that neither write a file nor contact a server. A file that is not in the current folder or above it, such as
 one that came with a downloaded scene, may set no others."""
+_OFFLINE_GROUNDERS = frozenset({"lexical", "dictionary", "embedding", "volume"})
 _QUALIFIED = {
     "decisions": ("color-by", "ask"),
     "ontology": ("color-by", "ask"),
@@ -102,7 +103,7 @@ def read_project_options(app: typer.Typer, arguments: Sequence[str]) -> ProjectO
         qualified = [is_set[key] for key in _QUALIFIED.get(option.key, ()) if key in is_set]
         if qualified and not any(qualified):
             continue
-        if not is_trusted and option.key not in ALLOWED_ANYWHERE:
+        if not (is_trusted or option.key in ALLOWED_ANYWHERE or _is_offline_grounder(option, value)):
             problem = "may write a file or contact a server, and the file is neither in the current folder nor above it"
             raise Usd2kgError(f"{file}: {option.key} {problem}; change to {file.parent}, or use --no-project-file")
         keys.append(option.key)
@@ -235,3 +236,8 @@ def _as_arguments(file: Path, option: CommandOption, value: Any) -> Iterator[str
 def _is_built_in(file: Path, option: CommandOption, value: str) -> bool:
     """Return whether a value names a built-in ontology, and no file beside the project file has that name."""
     return option.key == "ontology" and value in BUILT_IN_ONTOLOGIES and not (file.parent / value).is_file()
+
+
+def _is_offline_grounder(option: CommandOption, value: object) -> bool:
+    """Return whether a value names a grounder that contacts no server."""
+    return option.key == "grounder" and value in _OFFLINE_GROUNDERS

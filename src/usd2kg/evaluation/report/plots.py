@@ -17,7 +17,7 @@ from usd2kg.evaluation.report.canvas import (
     to_figure,
 )
 from usd2kg.evaluation.report.cell_text import significant_digits
-from usd2kg.evaluation.report.published import AS_PUBLISHED, published_main
+from usd2kg.evaluation.report.published import AS_PUBLISHED, published_ablation, published_main
 from usd2kg.evaluation.run_matrix import CellResult, SceneResult
 from usd2kg.grounding import NamingRegime
 
@@ -111,12 +111,30 @@ def plot_ablation(result: SceneResult, file: str) -> Figure | None:
             for index, method in enumerate(methods):
                 shown = [(y, _mean_ema(runs[method, name])) for y, name in enumerate(names) if (method, name) in runs]
                 _horizontal_bars(axes, shown, index, len(methods), method)
+            if conditions is STUDY_ABLATION:
+                _published_ablation_ticks(axes, names)
             axes.set_yticks(range(len(names)), names)
             axes.invert_yaxis()
             axes.grid(visible=False, axis="y")
             axes.set(xlim=(0, 108), xlabel="EMA, %", title=title)
         add_legend(canvas, *panels)
-        return to_figure(canvas, file, f"{result.spec.name}: exact match by available evidence.")
+        shown_ticks = f"Grey ticks are the study's methods, {AS_PUBLISHED}."
+        caption = f"{result.spec.name}: exact match by available evidence. {shown_ticks}"
+        return to_figure(canvas, file, caption)
+
+
+def _published_ablation_ticks(axes: "Axes", conditions: Sequence[str]) -> None:
+    """Draw the published results of all methods below the bars of each condition."""
+    places = {condition: y + _BARS_WIDTH / 2 + 0.05 for y, condition in enumerate(conditions)}
+    found = [
+        (one.ema, places[condition])
+        for done in published_ablation().values()
+        for condition, one in done.items()
+        if one.ema is not None and condition in places
+    ]
+    if found:
+        x, y = zip(*found, strict=True)
+        axes.scatter(x, y, 60, color=_GREY, marker="|", label="published, another scene")
 
 
 def _horizontal_bars(axes: "Axes", shown: Sequence[tuple[int, float]], index: int, total: int, method: str) -> None:
