@@ -5,7 +5,7 @@ from typing import Annotated
 
 from typer import Argument, Option
 
-from usd2kg.cli.options.common import JsonOutput, OntologyFile, OntologyOfGold, SceneFile, TextFile
+from usd2kg.cli.options.common import JsonOutput, OntologyFile, SceneFile, TextFile
 from usd2kg.cli.output import emit, format_optional, print_json
 from usd2kg.cli.text_table import format_table
 from usd2kg.errors import EvaluationError
@@ -43,7 +43,7 @@ def annotate_command(
 def agreement_command(
     first: Annotated[Path, Argument(metavar="A", help="Gold file of one annotator.")],
     second: Annotated[Path, Argument(metavar="B", help="Gold file of another annotator for the same scene.")],
-    ontology: OntologyOfGold = None,
+    ontology: OntologyFile = None,
     json: JsonOutput = False,
 ) -> None:
     """Measure the agreement of two gold files: exact, Cohen's kappa, accepting second labels, hierarchical."""

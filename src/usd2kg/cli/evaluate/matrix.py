@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Annotated
 
 from typer import Argument, Option
 
-from usd2kg.cli.options.common import OntologyOfGold, ReportFolder
+from usd2kg.cli.options.common import OntologyFile, ReportFolder
 from usd2kg.cli.output import emit, notify
 from usd2kg.errors import EvaluationError
 
@@ -64,7 +64,7 @@ def kitchen_set_command(
     gold: Annotated[
         Path | None, Option("--gold", help="Gold labels; default: none, only check the scene and list objects.")
     ] = None,
-    ontology: OntologyOfGold = None,
+    ontology: OntologyFile = None,
     output: ReportFolder = Path("kitchen_set_results"),
 ) -> None:
     """Check a download of Pixar's Kitchen Set, and evaluate the study's matrix on it with your gold labels."""

@@ -8,7 +8,7 @@ from typer import Option
 
 from usd2kg.cli.grounder_session import open_grounder_session
 from usd2kg.cli.options.bundles import check_files, expand_bundles
-from usd2kg.cli.options.common import JsonOutput, OntologyOfGold, SceneFile
+from usd2kg.cli.options.common import JsonOutput, OntologyFile, SceneFile
 from usd2kg.cli.options.grounding import AbbreviatedLength, GroundingOptions
 from usd2kg.cli.output import emit, format_optional, print_json
 from usd2kg.cli.text_table import format_table
@@ -27,7 +27,7 @@ def run_command(
     scene: SceneFile,
     gold: Annotated[Path, Option("--gold", help="Gold labels: CSV path,class,also.")],
     grounding: GroundingOptions,
-    ontology: OntologyOfGold = None,
+    ontology: OntologyFile = None,
     abbreviated_length: AbbreviatedLength = 4,
     output: Annotated[
         Path | None,

@@ -13,7 +13,6 @@ __all__ = [
     "BaseIri",
     "JsonOutput",
     "OntologyFile",
-    "OntologyOfGold",
     "ReportFolder",
     "SceneFile",
     "TextFile",
@@ -28,15 +27,8 @@ OntologyFile = Annotated[
     Option(
         "--ontology",
         metavar="|".join(("FILE", *BUILT_IN_ONTOLOGIES)),
-        help="OWL file with the candidate classes, or a built-in ontology; default: what suits the scene or graph.",
-    ),
-]
-OntologyOfGold = Annotated[
-    Path | None,
-    Option(
-        "--ontology",
-        metavar="|".join(("FILE", *BUILT_IN_ONTOLOGIES)),
-        help="OWL file with the classes of the gold labels, or a built-in ontology; default: home.",
+        help="OWL file with the candidate classes, or a built-in ontology; default: what suits the scene or graph; for "
+        "eval, home.",
     ),
 ]
 BaseIri = Annotated[
