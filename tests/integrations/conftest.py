@@ -1,5 +1,8 @@
 """Folders of the integrations on the import path, and a small scene for all of them."""
 
+import sys
+from collections.abc import Iterator
+from contextlib import contextmanager
 from pathlib import Path
 
 import pytest
@@ -16,6 +19,15 @@ SCENE = METRES + xform(
     component("Mug", cube("Body", size=0.1, at=(0, 0, 0.55))),
     component("Zorblax", cube("Part", size=0.2, at=(3, 0, 0))),
 )
+
+
+@contextmanager
+def imported_from(folder: Path, package: str, monkeypatch: pytest.MonkeyPatch) -> Iterator[None]:
+    """Let a package be imported from a folder, and forget it at the end."""
+    monkeypatch.syspath_prepend(str(folder))
+    yield
+    for name in [name for name in sys.modules if name.startswith(package)]:
+        del sys.modules[name]
 
 
 @pytest.fixture

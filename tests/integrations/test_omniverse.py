@@ -11,7 +11,7 @@ from types import ModuleType, SimpleNamespace
 import pytest
 from pxr import Usd, UsdSemantics
 
-from tests.integrations.conftest import INTEGRATIONS, SCENE
+from tests.integrations.conftest import INTEGRATIONS, SCENE, imported_from
 from usd2kg.errors import OutputError, SceneError
 
 FOLDER = INTEGRATIONS / "omniverse" / "usd2kg.omni"
@@ -20,10 +20,8 @@ CONFIG = tomllib.loads((FOLDER / "config" / "extension.toml").read_text("utf-8")
 
 @pytest.fixture(autouse=True)
 def _importable(monkeypatch):
-    monkeypatch.syspath_prepend(str(FOLDER))
-    yield
-    for name in [name for name in sys.modules if name.startswith("usd2kg_omni")]:
-        del sys.modules[name]
+    with imported_from(FOLDER, "usd2kg_omni", monkeypatch):
+        yield
 
 
 @pytest.fixture

@@ -9,7 +9,7 @@ from types import ModuleType, SimpleNamespace
 import pytest
 from pxr import Sdf, Usd, UsdGeom
 
-from tests.integrations.conftest import COLOR, INTEGRATIONS
+from tests.integrations.conftest import COLOR, INTEGRATIONS, imported_from
 from tests.scene.usda import METRES, component, cube, prim, xform
 from usd2kg.diagrams.settings import COLORS
 
@@ -18,10 +18,8 @@ FOLDER = INTEGRATIONS / "usdview"
 
 @pytest.fixture(autouse=True)
 def _importable(monkeypatch):
-    monkeypatch.syspath_prepend(str(FOLDER))
-    yield
-    for name in [name for name in sys.modules if name.startswith("usd2kg_usdview")]:
-        del sys.modules[name]
+    with imported_from(FOLDER, "usd2kg_usdview", monkeypatch):
+        yield
 
 
 @pytest.fixture

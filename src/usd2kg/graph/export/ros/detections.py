@@ -26,7 +26,7 @@ def write_ros2(graph: PropertyGraph, folder: Path, frame: str = "map") -> tuple[
         frame: id of the world frame.
 
     Raises:
-        GraphError: `frame` is no frame id, or the graph has several scenes.
+        GraphError: `frame` is not a frame id, or the graph has several scenes.
         OutputError: a file cannot be written.
     """
     detections, relations = read_detections(graph, frame), read_relations(graph, frame)
@@ -43,7 +43,7 @@ def read_detections(graph: PropertyGraph, frame: str = "map") -> Message:
     confidence, `bbox` without a box.
 
     Raises:
-        GraphError: `frame` is no frame id, or the graph has several scenes.
+        GraphError: `frame` is not a frame id, or the graph has several scenes.
     """
     ids = read_frame_ids(graph, check_frame(frame))
     placed = ((node, read_pose(node.properties)) for node in graph.nodes if node.id in ids)
@@ -58,7 +58,7 @@ def read_relations(graph: PropertyGraph, frame: str = "map") -> Message:
     are stated once.
 
     Raises:
-        GraphError: `frame` is no frame id, or the graph has several scenes.
+        GraphError: `frame` is not a frame id, or the graph has several scenes.
     """
     ids = read_frame_ids(graph, check_frame(frame))
     things = [

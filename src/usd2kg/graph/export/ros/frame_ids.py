@@ -8,15 +8,15 @@ from usd2kg.graph.export.property_graph import PropertyGraph, PropertyNode
 __all__ = ["check_frame", "frame_id_of", "read_frame_ids"]
 
 _ESCAPED = re.compile(r"[^A-Za-z0-9_/]|_(?=u[0-9A-F]{4})")
-"""Characters that are escaped; an underscore only where it would look like the begin of an escape."""
+"""Characters that are escaped; an underscore only where it would look like the start of an escape."""
 _FRAME = re.compile(r"[A-Za-z0-9_]+(?:/[A-Za-z0-9_]+)*")
 
 
 def frame_id_of(prim_path: str) -> str:
     """Return the frame id of a prim: its path without the first slash.
 
-    Characters other than ASCII letters, digits, `_` and `/` become `_uXXXX_`, their code point in at least four
-    hexadecimal digits. The mapping is injective.
+    Characters other than ASCII letters, digits, `_` and `/` become their code point in at least four hexadecimal
+    digits between `_u` and `_`. The mapping is injective.
 
     >>> frame_id_of("/World/Table_1/Cup_3")
     'World/Table_1/Cup_3'
@@ -31,7 +31,7 @@ def check_frame(frame: str) -> str:
     """Return `frame` unchanged.
 
     Raises:
-        GraphError: it is no frame id.
+        GraphError: it is not a frame id.
     """
     if not _FRAME.fullmatch(frame):
         raise GraphError(

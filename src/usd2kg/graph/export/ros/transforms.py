@@ -23,7 +23,7 @@ def write_tf(graph: PropertyGraph, folder: Path, frame: str = "map") -> int:
         frame: id of the world frame.
 
     Raises:
-        GraphError: `frame` is no frame id, or the graph has several scenes.
+        GraphError: `frame` is not a frame id, or the graph has several scenes.
         OutputError: a file cannot be written.
     """
     message = read_transforms(graph, frame)
@@ -45,7 +45,7 @@ def read_transforms(graph: PropertyGraph, frame: str = "map") -> Message:
     the prim, without its scale.
 
     Raises:
-        GraphError: `frame` is no frame id, or the graph has several scenes.
+        GraphError: `frame` is not a frame id, or the graph has several scenes.
     """
     ids = read_frame_ids(graph, check_frame(frame))
     found = ((node.id, read_pose(node.properties)) for node in graph.nodes if node.id in ids)
