@@ -10,7 +10,7 @@ from pathlib import Path
 
 from usd2kg.errors import OutputError
 
-__all__ = ["check_apart", "check_writable", "hash_file", "is_same_file", "write_whole"]
+__all__ = ["check_apart", "check_writable", "hash_file", "is_same_file", "name_of", "stem_of", "write_whole"]
 
 _TEMPORARY = ".tmp"
 """Ending of temporary files."""
@@ -54,6 +54,20 @@ def check_writable(path: Path) -> None:
         raise OutputError(f"{path}: the folder {folder} does not exist; create it or choose another output")
     if not os.access(folder, os.W_OK) or (path.exists() and not os.access(path, os.W_OK)):
         raise OutputError(f"{path}: is not writable; choose another output or change its permissions")
+
+
+def name_of(path: Path) -> str:
+    """Return the name of a file or folder as the user named it, also of `.` and `..`; links are not followed.
+
+    >>> name_of(Path("scenes/rooms/.."))
+    'scenes'
+    """
+    return Path(os.path.abspath(path)).name  # noqa: PTH100 - `Path.absolute` keeps `..`, `resolve` follows links
+
+
+def stem_of(path: Path) -> str:
+    """Return the name of a scene: that of a file without its ending, of a folder the whole name."""
+    return name_of(path) if path.is_dir() else path.stem
 
 
 def hash_file(path: Path) -> str:

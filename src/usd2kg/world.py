@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import Any, NamedTuple
 
 from usd2kg.assistant import InterpretedAnswer, ask_offline
-from usd2kg.convert import FORMATS, STAGE_ENDINGS, is_stage
+from usd2kg.convert import SCENE_ENDINGS, is_stage
 from usd2kg.errors import GraphError
 from usd2kg.graph import (
     GRAPH_FORMATS,
@@ -126,8 +126,8 @@ def open(source: Path | str, *, scene: str | None = None, **options: Any) -> Wor
     """Return the world of a stage, whose graph is built, or of a graph, which is loaded.
 
     Args:
-        source: a stage, a file that is converted to one, a graph file, the folder of a store, or the address of a
-            server.
+        source: a stage, a file or a folder of OBJ files that is converted to one, a graph file, the folder of a store,
+            or the address of a server.
         scene: the scene of a store, by IRI, name or label; only needed if it has several.
         options: options of `usd2kg.build`, such as `ontology`, `grounder` and `progress`; only for a stage.
 
@@ -135,7 +135,7 @@ def open(source: Path | str, *, scene: str | None = None, **options: Any) -> Wor
         Usd2kgError: the source cannot be read, or an option is invalid or does not apply to it.
     """
     place = str(source)
-    if is_store(place):
+    if is_store(place) and not (Path(place).is_dir() and is_stage(Path(place))):
         _refuse(place, options)
         return World(place, open_graph(place, _only_scene(place) if scene is None else scene))
     if scene is not None:
@@ -170,8 +170,7 @@ def _check_ending(path: Path) -> None:
     name = path.with_suffix("") if path.suffix.lower() == ".gz" else path
     # Formats that are only written have a message of their own.
     if name.suffix.lower() not in GRAPH_FORMATS:
-        converted = [ending for entry in FORMATS for ending in entry.endings]
-        expected = ", ".join((*STAGE_ENDINGS, *converted, *RDF_FORMATS))
+        expected = ", ".join((*SCENE_ENDINGS, *RDF_FORMATS))
         raise GraphError(
             f"{path}: the ending {name.suffix!r} names neither a stage nor a graph; expected the folder of a store, or "
             f"one of {expected}"

@@ -45,7 +45,7 @@ def test_missing_file_is_refused(tmp_path):
 def test_folder_is_refused(tmp_path):
     folder = tmp_path / "kitchen.usd"
     folder.mkdir()
-    assert refusal(folder) == "is a folder, expected a USD stage; name the root layer inside it"
+    assert refusal(folder) == "is a folder without OBJ files, expected a USD stage; name the root layer inside it"
 
 
 def test_empty_file_is_refused(tmp_path):

@@ -29,9 +29,10 @@ class SourceState:
 
     @classmethod
     def of(cls, path: Path) -> Self:
-        """Return the state of a file."""
-        found = path.stat()
-        return cls(found.st_size, found.st_mtime_ns)
+        """Return the state of a file, or of all that is in a folder."""
+        below = path.rglob("*") if path.is_dir() else ()
+        states = [found.stat() for found in (path, *below) if found.exists()]
+        return cls(sum(state.st_size for state in states), max(state.st_mtime_ns for state in states))
 
 
 @dataclass(frozen=True)

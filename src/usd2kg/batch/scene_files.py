@@ -7,12 +7,10 @@ from collections.abc import Iterable, Iterator
 from pathlib import Path
 from typing import NamedTuple
 
-from usd2kg.convert import FORMATS, STAGE_ENDINGS
+from usd2kg.convert import STAGE_ENDINGS, is_scene_folder, is_stage
 from usd2kg.errors import SceneError
 
 __all__ = ["SceneFile", "find_scene_files", "output_names"]
-
-_ENDINGS = (*STAGE_ENDINGS, *(ending for entry in FORMATS for ending in entry.endings))
 
 
 class SceneFile(NamedTuple):
@@ -31,8 +29,8 @@ class SceneFile(NamedTuple):
 def find_scene_files(places: Iterable[str], exclude: Iterable[str] = ()) -> tuple[SceneFile, ...]:
     """Return the scenes that paths, folders and patterns name, sorted by name, each once.
 
-    A folder stands for all stages below it; files of other formats have to be named, or matched by a pattern. In a
-    pattern, `**` stands for any number of folders, as in a shell.
+    A folder stands for all stages below it; files of other formats have to be named, or matched by a pattern. A folder
+    that only has OBJ files is one scene. In a pattern, `**` stands for any number of folders, as in a shell.
 
     Args:
         places: files, folders, and patterns such as `scenes/**/*.usd`.
@@ -64,11 +62,12 @@ def output_names(scenes: Iterable[SceneFile]) -> dict[str, str]:
 def _scenes_of(place: str) -> Iterator[Path]:
     path = Path(place)
     if path.is_dir():
-        yield from (file for file in sorted(_files_below(path)) if file.suffix.lower() in STAGE_ENDINGS)
+        stages = [file for file in sorted(_files_below(path)) if file.suffix.lower() in STAGE_ENDINGS]
+        yield from stages or ([path.absolute()] if is_scene_folder(path) else [])
     elif path.is_file():
         yield path.absolute()
     else:
-        yield from (file for file in sorted(_matches(place)) if file.suffix.lower() in _ENDINGS)
+        yield from (file for file in sorted(_matches(place)) if is_stage(file))
 
 
 def _files_below(folder: Path) -> Iterator[Path]:

@@ -21,6 +21,7 @@ from usd2kg.cli.output import notify, notify_notes, print_json
 from usd2kg.cli.scene_build import SceneBuild
 from usd2kg.cli.store import check_graph_names, load_graphs, open_for_loading
 from usd2kg.errors import GroundingError, OutputError, Usd2kgError
+from usd2kg.files import check_writable, stem_of
 
 if TYPE_CHECKING:
     from usd2kg.pipeline import BuildResult
@@ -31,7 +32,9 @@ __all__ = ["build_command"]
 
 @expand_bundles
 def build_command(
-    scenes: Annotated[list[Path], Argument(metavar="SCENE...", help="USD stages, or files that usd2kg convert reads.")],
+    scenes: Annotated[
+        list[Path], Argument(metavar="SCENE...", help="USD stages, or files and folders that usd2kg convert reads.")
+    ],
     grounding: GroundingOptions,
     carry_over: CarryOverOptions,
     reading: StageOptions,
@@ -109,17 +112,16 @@ def _choose_targets(scenes: list[Path], output: Path | None) -> list[Path]:
         OutputError: a file cannot be written, or two scenes have the same one.
         GraphError: the ending of a file names no format.
     """
-    from usd2kg.files import check_writable  # noqa: PLC0415
     from usd2kg.graph import graph_format  # noqa: PLC0415
 
     if len(scenes) == 1 and not (output is not None and output.is_dir()):
-        targets = [output if output is not None else Path(f"{scenes[0].stem}.ttl")]
+        targets = [output if output is not None else Path(f"{stem_of(scenes[0])}.ttl")]
     else:
         folder = output if output is not None else Path()
         if folder.suffix or (folder.exists() and not folder.is_dir()):
             raise OutputError(f"{folder}: is not a folder; expected one for the graphs of {len(scenes)} scenes")
         folder.mkdir(parents=True, exist_ok=True)
-        targets = [folder / f"{scene.stem}.ttl" for scene in scenes]
+        targets = [folder / f"{stem_of(scene)}.ttl" for scene in scenes]
     if len(set(targets)) < len(targets):
         raise OutputError(
             "two scenes have the same file name, so their graphs would overwrite each other; build them separately"

@@ -16,6 +16,7 @@ from usd2kg.cli.options.common import AllFindings, JsonOutput, OntologyFile, Sce
 from usd2kg.cli.options.stage import StageOptions
 from usd2kg.cli.output import count_noun, emit, notify, print_json
 from usd2kg.errors import OutputError
+from usd2kg.files import check_apart, check_writable, stem_of
 
 if TYPE_CHECKING:
     from usd2kg.labels import LabelOptions, LabelReport
@@ -97,12 +98,11 @@ def write_command(
     json: JsonOutput = False,
 ) -> None:
     """Write a layer over a scene that labels prims with their classes. This is the default command."""
-    from usd2kg.files import check_apart, check_writable  # noqa: PLC0415
     from usd2kg.grounding.built_in_choice import stated_places  # noqa: PLC0415
     from usd2kg.labels import label_stage, read_prim_classes  # noqa: PLC0415 - loads OpenUSD, too slow for --help
     from usd2kg.pipeline import open_tbox  # noqa: PLC0415
 
-    target = output or Path(f"{scene.stem}.labels.usda")
+    target = output or Path(f"{stem_of(scene)}.labels.usda")
     check_writable(target)
     check_apart([target], [scene, run, ontology])
     tbox = open_tbox(ontology, stated=stated_places(run))

@@ -13,7 +13,7 @@ from usd2kg.cli.options.stage import MetresPerUnit, TimeCode, UpAxis
 from usd2kg.cli.output import notify
 from usd2kg.cli.picture_colors import find_colors
 from usd2kg.errors import OutputError
-from usd2kg.files import check_writable, write_whole
+from usd2kg.files import check_writable, stem_of, write_whole
 
 __all__ = ["render_command"]
 
@@ -50,7 +50,7 @@ def render_command(
     mode = coloring.mode()
     if context and mode.value != "material":
         raise OutputError("--context highlights one object by its colour; use it without --color-by")
-    target = output or Path(f"{_file_name(path) if path else scene.stem}.png")
+    target = output or Path(f"{_file_name(path) if path else stem_of(scene)}.png")
     if target.suffix.lower() != ".png":
         raise OutputError(f"{target}: expected a file name ending in .png")
     check_writable(target)

@@ -15,6 +15,7 @@ from usd2kg.cli.options.review import Reviewer
 from usd2kg.cli.options.stage import StageOptions
 from usd2kg.cli.output import notify
 from usd2kg.errors import OutputError
+from usd2kg.files import stem_of
 
 __all__ = ["studio_command"]
 
@@ -72,16 +73,17 @@ def studio_command(
     The page suggests --reviewer, or else the login name, and can change it.
     With a --host other than this machine, a password in USD2KG_STUDIO_PASSWORD is needed.
     """
-    from usd2kg.studio import ProjectSources, is_graph, serve_studio  # noqa: PLC0415 - OpenUSD
+    from usd2kg.convert import is_stage  # noqa: PLC0415
+    from usd2kg.studio import PROJECT_FILE, ProjectSources, is_graph, serve_studio  # noqa: PLC0415 - OpenUSD
 
     sources = None
-    if target.is_dir():
+    if target.is_dir() and ((target / PROJECT_FILE).exists() or not is_stage(target)):
         if project is not None:
             raise OutputError(f"--project {project}: {target} is a project already; name one of them")
         folder = target
     else:
         # A graph often has the name of its stage, which may have a project of its own.
-        folder = project or Path(f"{target.name if is_graph(target) else target.stem}.studio")
+        folder = project or Path(f"{target.name if is_graph(target) else stem_of(target)}.studio")
         sources = ProjectSources(target, ontology, mapping, second_mapping, alignment, base, reading.read_options())
 
     def report(url: str) -> None:

@@ -13,12 +13,15 @@ _KEY = "usd2kgOrigin"
 
 @dataclass(frozen=True)
 class Origin:
-    """The file that a stage was converted from, and the converter."""
+    """The file or folder that a stage was converted from, and the converter."""
 
     source: str
-    """Name of the file, without folder."""
+    """Name of the file or folder, without the folder that it is in."""
     hash: str
-    """`sha256:` and the digest of that file, without the files it refers to."""
+    """`sha256:` and the digest of that file, without the files it refers to; for a folder, that of its files' digests.
+
+    That is the digest of what the program sha256sum prints for them, sorted and named relative to the folder.
+    """
     format: str
     converter: str
     """Name and version, such as `trimesh 5.2.0`."""

@@ -4,16 +4,17 @@ from importlib import import_module
 from pathlib import Path
 
 from usd2kg.convert.converted import Converted, parse_error
+from usd2kg.convert.folders import hash_files, list_folder
 from usd2kg.convert.formats import SourceFormat
 from usd2kg.convert.origin import Origin, write_origin
 from usd2kg.errors import SceneError, Usd2kgError
-from usd2kg.files import hash_file
+from usd2kg.files import hash_file, name_of
 
 __all__ = ["convert_stage"]
 
 
 def convert_stage(path: Path, source_format: SourceFormat) -> Converted:
-    """Return the stage of a file, with the origin in its root layer.
+    """Return the stage of a file or folder, with the origin in its root layer.
 
     Raises:
         SceneError: the converter is not installed, or cannot read the file.
@@ -29,6 +30,10 @@ def convert_stage(path: Path, source_format: SourceFormat) -> Converted:
     except Exception as error:
         # The libraries that parse a damaged file may raise anything.
         raise parse_error(path, error, f"a whole {source_format.name} file") from error
-    origin = Origin(path.name, f"sha256:{hash_file(path)}", source_format.name, converted.converter)
+    origin = Origin(name_of(path), f"sha256:{_hash(path)}", source_format.name, converted.converter)
     write_origin(converted.stage.GetRootLayer(), origin)
     return converted
+
+
+def _hash(path: Path) -> str:
+    return hash_files(path, list_folder(path, ()).obj) if path.is_dir() else hash_file(path)

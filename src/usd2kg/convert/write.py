@@ -7,7 +7,7 @@ from typing import Any
 from pxr import UsdGeom
 
 from usd2kg.convert.converted import Converted
-from usd2kg.convert.formats import FORMATS, LAYER_ENDINGS, find_format
+from usd2kg.convert.formats import FORMATS, LAYER_ENDINGS, find_format, refuse_other_xml
 from usd2kg.convert.read import convert_stage
 from usd2kg.errors import OutputError, SceneError
 from usd2kg.files import check_apart, check_writable, write_whole
@@ -18,10 +18,10 @@ __all__ = ["convert_file"]
 def convert_file(
     source: Path, output: Path, *, metres_per_unit: float | None = None, up_axis: str | None = None
 ) -> Converted:
-    """Write a file of another format as one USD layer, and return what was converted.
+    """Write a file of another format, or a folder of OBJ files, as one USD layer, and return what was converted.
 
     Args:
-        source: the file.
+        source: the file or folder.
         output: the layer to write, `.usdc`, `.usda` or `.usd`.
         metres_per_unit: length of a unit of the source in metres, instead of what the format says.
         up_axis: `Y` or `Z`, instead of what the format says.
@@ -35,10 +35,13 @@ def convert_file(
     check_writable(output)
     check_apart([output], [source])
     known = ", ".join(ending for entry in FORMATS for ending in entry.endings)
-    if not source.is_file():
-        raise SceneError(f"{source}: no such file; expected a file to convert ({known})")
+    if not source.exists():
+        raise SceneError(f"{source}: no such file; expected a file to convert ({known}), or a folder of OBJ files")
     source_format = find_format(source)
+    if source_format is None and source.is_dir():
+        raise SceneError(f"{source}: is a folder without OBJ files; name the file to convert ({known})")
     if source_format is None:
+        refuse_other_xml(source)
         raise SceneError(
             f"{source}: no known format (ending {source.suffix or 'missing'!r}), expected one of {known}; "
             "USD stages need no conversion"

@@ -8,6 +8,7 @@ from urllib.parse import quote, unquote
 import pyoxigraph as ox
 
 from usd2kg.errors import GraphError
+from usd2kg.files import stem_of
 
 __all__ = ["check_base", "default_base", "individual_iri", "prim_path_of"]
 
@@ -23,7 +24,7 @@ def default_base(source: str) -> str:
     >>> default_base("scenes/my kitchen.usda")
     'https://example.org/my%20kitchen/'
     """
-    return f"https://example.org/{quote(Path(source).stem, safe='')}/"
+    return f"https://example.org/{quote(stem_of(Path(source)), safe='')}/"
 
 
 def check_base(base: str) -> str:

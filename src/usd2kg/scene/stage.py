@@ -17,7 +17,16 @@ from typing import Any
 
 from pxr import Sdf, Tf, Usd, UsdGeom, UsdPhysics, UsdUtils
 
-from usd2kg.convert import FORMATS, STAGE_ENDINGS, Origin, SourceFormat, find_format, read_origin
+from usd2kg.convert import (
+    SCENE_ENDINGS,
+    STAGE_ENDINGS,
+    Origin,
+    SourceFormat,
+    find_format,
+    read_origin,
+    refuse_other_xml,
+    stages_in,
+)
 from usd2kg.errors import SceneError
 from usd2kg.scene.expansion import check_expansion
 from usd2kg.scene.model import Diagnostic, StageFrame
@@ -40,7 +49,6 @@ __all__ = [
 UNREADABLE = (Tf.ErrorException, UnicodeDecodeError)
 """Exceptions that any call of OpenUSD may raise if a file is corrupt."""
 
-_CONVERTED_ENDINGS = tuple(ending for entry in FORMATS for ending in entry.endings)
 _STDERR = 2
 """File number of stderr, to which OpenUSD's C code writes."""
 _ADVICE_ERROR = b"failed call to posix_madvise"
@@ -82,8 +90,7 @@ def open_stage(source: Path | str | Usd.Stage, options: ReadOptions) -> OpenedSt
         with translated_errors(identifier):
             return _opened(source, identifier, [], options)
     source = Path(source)
-    _check_file(source)
-    source_format = find_format(source)
+    source_format = _check_file(source)
     if source_format is not None:
         return _convert(source, source_format, options)
     with translated_errors(str(source)):
@@ -204,18 +211,38 @@ def time_code(time: float | None) -> Usd.TimeCode:
     return Usd.TimeCode.EarliestTime() if time is None else Usd.TimeCode(time)
 
 
-def _check_file(source: Path) -> None:
+def _check_file(source: Path) -> SourceFormat | None:
+    """Return the format of a file or folder that needs conversion; None for a USD file."""
     if not source.exists():
         raise SceneError(f"{source}: no such file; expected a USD stage ({', '.join(STAGE_ENDINGS)})")
     if source.is_dir():
-        raise SceneError(f"{source}: is a folder, expected a USD stage; name the root layer inside it")
+        return _check_folder(source)
     if source.stat().st_size == 0:
         raise SceneError(f"{source}: the file is empty, expected a USD stage; export it again")
-    if not Sdf.FileFormat.FindByExtension(str(source)) and find_format(source) is None:
+    found = find_format(source)
+    if found is None:
+        refuse_other_xml(source)
+    if found is None and not Sdf.FileFormat.FindByExtension(str(source)):
         raise SceneError(
             f"{source}: not a USD file (ending {source.suffix or 'missing'!r}), expected one of "
-            f"{', '.join((*STAGE_ENDINGS, *_CONVERTED_ENDINGS))}; convert the scene to USD first"
+            f"{', '.join(SCENE_ENDINGS)}; convert the scene to USD first"
         )
+    return found
+
+
+def _check_folder(source: Path) -> SourceFormat:
+    found = find_format(source)
+    if found is None:
+        raise SceneError(
+            f"{source}: is a folder without OBJ files, expected a USD stage; name the root layer inside it"
+        )
+    stages = stages_in(source)
+    if stages:
+        raise SceneError(
+            f"{source}: is a folder with OBJ files and USD stages such as {stages[0].relative_to(source).as_posix()}; "
+            f"name the stage, or make one of the OBJ files: usd2kg convert {source} -o FILE.usdc"
+        )
+    return found
 
 
 def _cannot_open(source: str, reason: str) -> str:

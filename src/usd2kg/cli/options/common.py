@@ -21,7 +21,7 @@ __all__ = [
 BUILT_IN_ONTOLOGIES = ("home", "places")
 """Values of --ontology that are not files."""
 
-SceneFile = Annotated[Path, Argument(metavar="SCENE", help="USD stage, or a file that usd2kg convert reads.")]
+SceneFile = Annotated[Path, Argument(metavar="SCENE", help="USD stage, or a file or folder that usd2kg convert reads.")]
 OntologyFile = Annotated[
     Path | None,
     Option(
