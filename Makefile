@@ -5,7 +5,7 @@ BIN := .venv/bin
 READY := .venv/.ready
 
 .DEFAULT_GOAL := help
-.PHONY: help setup demo test test-docs test-slow test-studio web web-check data data-check owl-jars elk-jars fuseki-jar sssom-check-env docs sbom release-check audit fuzz lint types layers accuracy accuracy-check wheel compatibility lock scene clean
+.PHONY: help setup demo test test-docs test-slow test-studio test-converters web web-check data data-check owl-jars elk-jars fuseki-jar sssom-check-env docs sbom release-check audit fuzz lint types layers accuracy accuracy-check wheel compatibility lock scene clean
 
 help: ## Show this list
 	@grep -E '^[a-z-]+:.*##' $(MAKEFILE_LIST) | sed -E 's/:[^#]*## /\t/' | expand -t 12
@@ -30,6 +30,16 @@ test-slow: $(READY) ## Run the slow tests
 
 test-docs: $(READY) ## Run the code blocks of the documentation
 	$(BIN)/python -m pytest -q -n auto --dist load -m docs tests
+
+build/converters/.ready: requirements/converters.txt requirements/robots.txt
+	$(PYTHON) -m venv build/converters
+	build/converters/bin/python -m pip install --quiet --require-hashes --no-deps --requirement requirements/converters.txt \
+	  --requirement requirements/robots.txt
+	@touch $@
+
+test-converters: $(READY) build/converters/.ready ## Run the tests of URDF and MJCF with the converters, in build/converters; needs Python 3.11 or 3.12
+	PATH="$(CURDIR)/build/converters/bin:$$PATH" USD2KG_CONVERTERS="$(CURDIR)/build/converters" \
+	  $(BIN)/python -m pytest -q -n auto tests/convert/test_robots.py tests/convert/test_robot_packages.py
 
 test-studio: $(READY) web ## Run the tests of the studio, and those of its page and the query page in Chromium (CHROMIUM, or on the path)
 	$(BIN)/python -m pytest -q -n auto --dist loadfile -m studio tests/studio tests/endpoint
@@ -124,6 +134,10 @@ lock: $(READY) ## Pin the dependencies of pyproject.toml in requirements/, with 
 	  --generate-hashes --no-header --no-annotate --output-file requirements/supply.txt -
 	printf 'black\nmkdocs\nmkdocs-material\nmkdocstrings-python\n' | $(BIN)/uv pip compile --quiet --universal --python-version 3.11 \
 	  --generate-hashes --no-header --no-annotate --output-file requirements/docs.txt -
+	printf 'mujoco-usd-converter\nurdf-usd-converter\n' | $(BIN)/uv pip compile --quiet --universal --python-version 3.11 \
+	  --generate-hashes --no-header --no-annotate --output-file requirements/converters.txt -
+	printf 'airo-models\ngymnasium-robotics\n' | $(BIN)/uv pip compile --quiet --universal --python-version 3.11 --no-deps \
+	  --generate-hashes --no-header --no-annotate --output-file requirements/robots.txt -
 	echo sssom | $(BIN)/uv pip compile --quiet --universal --python-version 3.11 --generate-hashes --no-header \
 	  --no-annotate --output-file requirements/sssom.txt -
 

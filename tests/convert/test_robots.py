@@ -39,11 +39,44 @@ TABLE = """<mujoco model="breakfast">
   </worldbody>
 </mujoco>
 """
+ARM = """<mujoco model="arm">
+  <include file="shared/defaults.xml"/>
+  <asset><mesh name="finger" file="finger.obj"/></asset>
+  <worldbody>
+    <body name="base">
+      <geom type="cylinder" size="0.1 0.05" mass="2"/>
+      <body name="upper arm" pos="0 0 0.1">
+        <joint name="shoulder" type="ball"/>
+        <geom class="visual" type="capsule" fromto="0 0 0 0 0 0.3" size="0.04" mass="1"/>
+        <body name="forearm" pos="0 0 0.3">
+          <joint name="elbow" class="bending"/>
+          <geom class="visual" type="capsule" fromto="0 0 0 0 0 0.3" size="0.03" mass="1"/>
+          <body name="finger" pos="0 0 0.3">
+            <joint name="grip" type="slide" axis="1 0 0" range="0 0.04"/>
+            <geom type="mesh" mesh="finger" mass="0.1"/>
+          </body>
+        </body>
+      </body>
+    </body>
+  </worldbody>
+</mujoco>
+"""
+DEFAULTS = """<mujocoinclude>
+  <compiler angle="radian" meshdir="meshes" autolimits="true"/>
+  <default>
+    <default class="visual"><geom contype="0" conaffinity="0" group="2" rgba="0.8 0.2 0.2 1"/></default>
+    <default class="bending"><joint type="hinge" axis="0 1 0" range="-1.5 1.5"/></default>
+  </default>
+</mujocoinclude>
+"""
+TETRAHEDRON = "v 0 0 0\nv 0.05 0 0\nv 0 0.05 0\nv 0 0 0.1\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n"
+CONVERTERS = Path(os.environ["USD2KG_CONVERTERS"]) if "USD2KG_CONVERTERS" in os.environ else None
+"""Environment of the converters, from make test-converters; tests of a program that is missing there fail."""
 
 
 def needs(program: str) -> pytest.MarkDecorator:
     reason = f"needs the program {program} on the path: pipx install {program.replace('_', '-')}"
-    return pytest.mark.skipif(shutil.which(program) is None, reason=reason)
+    return pytest.mark.skipif(CONVERTERS is None and shutil.which(program) is None, reason=reason)
 
 
 def write(path: Path, text: str) -> Path:
@@ -85,6 +118,16 @@ class TestURDF:
         notes = [note.message for note in read_scene(write(folder / "cabinet.urdf", text)).diagnostics]
         assert not any("drawer.obj" in note for note in notes)
 
+    def test_undeclared_prefixes_are_declared(self, tmp_path: Path):
+        folder = tmp_path / "it's & more"
+        (folder / "meshes").mkdir(parents=True)
+        write(folder / "meshes" / "drawer.obj", TETRAHEDRON)
+        text = DRAWERS.replace('effort="10"', 'effort="10" drake:acceleration="2"')
+        text = text.replace('<box size="0.5 0.5 0.2"/>', '<mesh filename="meshes/drawer.obj"/>')
+        scene = read_scene(write(folder / "cabinet.urdf", text))
+        assert sum(obj.mass_kg or 0 for obj in scene.objects) == pytest.approx(23)
+        assert not any("drawer.obj" in note.message for note in scene.diagnostics)
+
     def test_broken_xml_is_one_clear_error(self, tmp_path: Path):
         path = write(tmp_path / "cabinet.urdf", "<robot>")
         with pytest.raises(SceneError, match=r"cannot be converted \(.+\), expected a URDF file"):
@@ -100,6 +143,29 @@ class TestMJCF:
         assert found["mug"].mass_kg == pytest.approx(0.3)
         on = [(relation.target, relation.anchor) for relation in result.graph.relations if relation.kind == "on"]
         assert (found["mug"].prim_path, found["table"].prim_path) in on
+
+    def test_joints_defaults_includes_and_meshes_of_an_arm(self, tmp_path: Path):
+        for name in ("shared", "meshes"):
+            (tmp_path / name).mkdir()
+        write(tmp_path / "shared" / "defaults.xml", DEFAULTS)
+        write(tmp_path / "meshes" / "finger.obj", TETRAHEDRON)
+        scene = read_scene(write(tmp_path / "arm.xml", ARM))
+        joints = {joint.prim_path.rpartition("/")[2]: joint for joint in scene.joints}
+        assert joints["shoulder"].type == "spherical"
+        assert joints["elbow"].type == "revolute"
+        assert (joints["elbow"].lower, joints["elbow"].upper) == pytest.approx((-1.5, 1.5))
+        assert joints["grip"].type == "prismatic"
+        assert (joints["grip"].lower, joints["grip"].upper) == pytest.approx((0, 0.04))
+        assert sum(obj.mass_kg or 0 for obj in scene.objects) == pytest.approx(4.1)
+        (finger,) = (obj for obj in scene.objects if obj.name == "finger")
+        assert finger.box is not None
+        assert finger.box.size == pytest.approx((0.05, 0.05, 0.1))
+
+    def test_a_missing_mesh_is_named(self, tmp_path: Path):
+        (tmp_path / "shared").mkdir()
+        write(tmp_path / "shared" / "defaults.xml", DEFAULTS)
+        with pytest.raises(SceneError, match=r"cannot be converted \(Mesh finger file .*finger\.obj does not exist\)"):
+            read_scene(write(tmp_path / "arm.xml", ARM))
 
 
 PROGRAM = """#!{python}

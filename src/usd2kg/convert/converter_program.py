@@ -21,6 +21,7 @@ from usd2kg.errors import SceneError
 __all__ = ["run_converter"]
 
 _WARNING = re.compile(r"^\[Warning\] \[(?P<place>[^\]]*)\] (?P<text>.+)", re.MULTILINE)
+_ERROR_PLACE = re.compile(r"^\s*Error in '[^']*' at line \d+ in file .+? : '?(?:Python runtime error: )?")
 _OWN_ADVICE = "usdex.core.deprecation"
 """Place of warnings to the authors of the converter."""
 _MAX_NOTES = 20
@@ -29,7 +30,9 @@ _MAX_SECONDS = 600
 """Time limit of a program; robots with hundreds of meshes take seconds."""
 
 
-def run_converter(program: str, path: Path, expected: str, arguments: Sequence[str] = ()) -> Converted:
+def run_converter(
+    program: str, path: Path, expected: str, arguments: Sequence[str] = (), *, corrected: bytes | None = None
+) -> Converted:
     """Return the stage that `program` makes of a file. Textures are left out.
 
     Args:
@@ -37,6 +40,7 @@ def run_converter(program: str, path: Path, expected: str, arguments: Sequence[s
         path: the file.
         expected: what the file should be, for the message of an error.
         arguments: further arguments of the program.
+        corrected: what the program reads instead of the content of the file, with absolute paths of other files.
 
     Raises:
         SceneError: the program is not installed, refuses the file, or does not end in ten minutes.
@@ -50,10 +54,14 @@ def run_converter(program: str, path: Path, expected: str, arguments: Sequence[s
         )
     # Modules of this environment must not shadow those of the program.
     environment = {name: value for name, value in os.environ.items() if name not in {"PYTHONPATH", "PYTHONHOME"}}
-    with tempfile.TemporaryDirectory() as folder:
+    with tempfile.TemporaryDirectory() as folder, tempfile.TemporaryDirectory() as corrections:
+        source = path.resolve()
+        if corrected is not None:
+            source = Path(corrections, path.name)
+            source.write_bytes(corrected)
         try:
             done = subprocess.run(
-                [command, "--no-layer-structure", *arguments, str(path.resolve()), folder],
+                [command, "--no-layer-structure", *arguments, str(source), folder],
                 env=environment,
                 stdin=subprocess.DEVNULL,
                 stdout=subprocess.PIPE,
@@ -68,12 +76,13 @@ def run_converter(program: str, path: Path, expected: str, arguments: Sequence[s
                 f"{path}: {program} did not end in {_MAX_SECONDS} s and was stopped; run it by itself: "
                 f"{program} {path} FOLDER, and read the USD file that it writes"
             ) from error
+        output = done.stdout.replace(str(source), str(path))
         written = sorted(Path(folder).glob("*.usd*"))
         if done.returncode != 0 or not written:
-            raise parse_error(path, _reason(done.stdout) or f"{program} ended with code {done.returncode}", expected)
+            raise parse_error(path, _reason(output) or f"{program} ended with code {done.returncode}", expected)
         layer = _load(written[0], path)
     stage = Usd.Stage.Open(layer)
-    notes = [*_distinct_notes(done.stdout), *_remove_textures(stage)]
+    notes = [*_distinct_notes(output), *_remove_textures(stage)]
     return Converted(stage, str(layer.customLayerData.get("creator") or package), tuple(notes))
 
 
@@ -91,9 +100,12 @@ def _load(written: Path, path: Path) -> Any:
 
 
 def _reason(output: str) -> str:
-    failures = [text.removeprefix("Conversion failed: ") for _, text in _warnings(output)]
+    failures = [text.removeprefix("Conversion failed:").strip() for _, text in _warnings(output)]
+    if failures and failures[-1]:
+        return failures[-1]
+    # An error of usd-exchange is on the line below, after its place in the program.
     lines = [line for line in output.splitlines() if line.strip()]
-    return failures[-1] if failures else (lines[-1] if lines else "")
+    return _ERROR_PLACE.sub("", lines[-1]).strip(" '\t") if lines else ""
 
 
 def _warnings(output: str) -> Iterator[tuple[str, str]]:
