@@ -3,17 +3,21 @@
 glTF is in metres and y-up (Khronos glTF 2.0, 3.4). Cameras, lights, skins, animations, lines and points are left out.
 """
 
+import json
 import re
+import struct
 from collections.abc import Iterator, Mapping
+from importlib.util import find_spec
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 from pxr import Kind, Usd
 
-from usd2kg.convert.converted import Converted
+from usd2kg.convert.converted import Converted, parse_error
 from usd2kg.convert.prims import PrimAuthor, custom_data, new_stage
 from usd2kg.convert.trimesh_files import MeshAuthor, load_scene, trimesh_name
+from usd2kg.errors import SceneError
 
 if TYPE_CHECKING:
     import trimesh
@@ -29,13 +33,21 @@ _NOT_EXTRAS = frozenset({"units", "from_gltf_primitive", "gltf_extensions", "pro
 """Keys that trimesh adds to the extras of a node or mesh."""
 
 
+_EXPECTED = "a glTF 2.0 file (.glb, or .gltf with its buffers beside it)"
+_DRACO = "KHR_draco_mesh_compression"
+_NOT_DECODED = ("EXT_meshopt_compression", "KHR_meshopt_compression")
+_GLB_HEADER = struct.Struct("<4s4xII4s")
+"""Magic number, length of the file, length and type of the first chunk, which is JSON (glTF 2.0, 4.4)."""
+
+
 def read_prims(path: Path) -> Converted:
     """Return the stage of a glTF file. A file with several root nodes has them below a prim named after the file.
 
     Raises:
-        SceneError: trimesh cannot read the file, or it has no triangles.
+        SceneError: trimesh cannot read the file, it has no triangles, or they are compressed and cannot be decoded.
     """
-    scene = load_scene(path, "a glTF 2.0 file (.glb, or .gltf with its buffers beside it)")
+    _check_compression(path)
+    scene = load_scene(path, _EXPECTED)
     stage = new_stage("Y", 1.0)
     author = PrimAuthor(stage)
     nodes = _Nodes(scene)
@@ -52,6 +64,35 @@ def read_prims(path: Path) -> Converted:
     if scene.metadata:
         _add_extras(top, "gltfScene", scene.metadata)
     return Converted(stage, trimesh_name(), tuple(writer.notes))
+
+
+def _check_compression(path: Path) -> None:
+    """Refuse a file whose triangles trimesh would replace by zeros.
+
+    Raises:
+        SceneError: it requires an extension for compression that is not decoded.
+    """
+    required = _required_extensions(path)
+    found = next((name for name in _NOT_DECODED if name in required), None)
+    if found is not None:
+        raise parse_error(path, f"its meshes are compressed with {found}", f"{_EXPECTED} without compression")
+    if _DRACO in required and find_spec("DracoPy") is None:
+        raise SceneError(f"{path}: its meshes are compressed with Draco, which needs DracoPy; run: pip install DracoPy")
+
+
+def _required_extensions(path: Path) -> frozenset[str]:
+    """Return the extensions that a file requires; none for a file that trimesh will refuse."""
+    try:
+        with path.open("rb") as file:
+            header = file.read(_GLB_HEADER.size)
+            if header.startswith(b"glTF"):
+                _, _, length, _ = _GLB_HEADER.unpack(header)
+                document = json.loads(file.read(length))
+            else:
+                document = json.loads(header + file.read())
+        return frozenset(document["extensionsRequired"])
+    except (ValueError, KeyError, TypeError, RecursionError, struct.error):
+        return frozenset()
 
 
 class _Node(NamedTuple):
