@@ -13,8 +13,8 @@ from pxr import Usd, UsdGeom, UsdPhysics
 
 from tests.graph.records import open_store
 from usd2kg import build
+from usd2kg.convert.sdf import budget as sdf_budget
 from usd2kg.convert.sdf import meshes, xml_files
-from usd2kg.convert.sdf import reader as sdf_reader
 from usd2kg.convert.sdf.frames import Scope
 from usd2kg.convert.sdf.model import Frame, Pose, World
 from usd2kg.convert.sdf.notes import Notes
@@ -841,7 +841,9 @@ class TestJoints:
 BOMB = '<?xml version="1.0"?>\n<!DOCTYPE sdf [<!ENTITY a "aaaaaaaaaa">\n<!ENTITY b "&a;&a;&a;&a;">]>\n'
 
 
-TOO_MANY = "it has more than 500 models, links, visuals, joints and frames, with those that it includes"
+TOO_MANY = (
+    "it has more than 500 models, links, visuals, joints, frames and parts of meshes, with those that it includes"
+)
 
 
 class TestHostileFiles:
@@ -924,7 +926,7 @@ class TestHostileFiles:
             read_scene(path)
 
     def test_includes_that_multiply_are_an_error(self, tmp_path: Path, monkeypatch: pytest.MonkeyPatch):
-        monkeypatch.setattr(sdf_reader, "_MAX_ELEMENTS", 500)
+        monkeypatch.setattr(sdf_budget, "_MAX_ELEMENTS", 500)
         for level in range(20):
             include = f"<include><uri>model://m{level + 1}</uri></include>"
             write(tmp_path / f"models/m{level}/model.sdf", sdf(f'<model name="m">{include}{include}</model>'))
@@ -945,7 +947,7 @@ class TestHostileFiles:
         ],
     )
     def test_everything_in_includes_is_counted(self, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, content: str):
-        monkeypatch.setattr(sdf_reader, "_MAX_ELEMENTS", 500)
+        monkeypatch.setattr(sdf_budget, "_MAX_ELEMENTS", 500)
         write(tmp_path / "models/m/model.sdf", sdf(content))
         include = "<include><uri>model://m</uri></include>"
         read_scene(world(tmp_path / "w.sdf", cube_model("a", "") + include * 5))
@@ -953,10 +955,36 @@ class TestHostileFiles:
             read_scene(world(tmp_path / "w.sdf", include * 10))
 
     def test_includes_of_lights_are_counted(self, tmp_path: Path, monkeypatch: pytest.MonkeyPatch):
-        monkeypatch.setattr(sdf_reader, "_MAX_ELEMENTS", 500)
+        monkeypatch.setattr(sdf_budget, "_MAX_ELEMENTS", 500)
         path = world(tmp_path / "w.sdf", "<include><uri>model://sun</uri></include>" * 501)
         with pytest.raises(SceneError, match=TOO_MANY):
             read_scene(path)
+
+    def test_the_parts_of_meshes_are_counted(self, tmp_path: Path, monkeypatch: pytest.MonkeyPatch):
+        monkeypatch.setattr(sdf_budget, "_MAX_ELEMENTS", 500)
+        trimesh = pytest.importorskip("trimesh", reason="needs the extra sdf")
+        boxes = trimesh.Scene()
+        for index in range(100):
+            boxes.add_geometry(trimesh.creation.box(), f"box {index}")
+        boxes.export(tmp_path / "boxes.glb")
+        mesh = "<mesh><uri>boxes.glb</uri></mesh>"
+        assert read_scene(
+            world(tmp_path / "w.sdf", f'<model name="m"><link name="l">{visual(mesh) * 4}</link></model>')
+        )
+        path = world(tmp_path / "w.sdf", f'<model name="m"><link name="l">\n{visual(mesh) * 5}</link></model>')
+        with pytest.raises(SceneError, match=f"w.sdf, line 5: {TOO_MANY}"):
+            read_scene(path)
+
+    def test_the_triangles_of_repeated_meshes_are_counted(self, tmp_path: Path, monkeypatch: pytest.MonkeyPatch):
+        monkeypatch.setattr(sdf_budget, "_MAX_TRIANGLES", 50)
+        trimesh = pytest.importorskip("trimesh", reason="needs the extra sdf")
+        trimesh.creation.box().export(tmp_path / "box.stl")
+        mesh = visual("<mesh><uri>box.stl</uri></mesh>")
+        assert read_scene(
+            world(tmp_path / "w.sdf", f'<model name="m"><link name="l">{mesh * 4}</link></model>')
+        ).objects
+        with pytest.raises(SceneError, match="it has more than 50 triangles, with repeated meshes"):
+            read_scene(world(tmp_path / "w.sdf", f'<model name="m"><link name="l">{mesh * 5}</link></model>'))
 
     def test_many_notes_are_counted(self, tmp_path: Path):
         body = "\n".join(f"<include><uri>model://m{index}</uri></include>" for index in range(60))

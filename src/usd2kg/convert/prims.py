@@ -2,7 +2,8 @@
 
 import json
 from collections.abc import Mapping
-from typing import Any
+from functools import cached_property
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -29,6 +30,26 @@ class SourceMesh:
         self.triangles = np.asarray(triangles, np.int32).reshape(-1, 3)
         self.colors = None if colors is None else np.asarray(colors, np.float32).reshape(-1, 3)
         self.is_per_point = is_per_point
+
+    @cached_property
+    def arrays(self) -> "_MeshArrays":
+        """The values of a mesh prim; OpenUSD shares their memory among all prims of the same mesh."""
+        points = Vt.Vec3fArray.FromNumpy(np.ascontiguousarray(self.points))
+        return _MeshArrays(
+            points,
+            Vt.IntArray(len(self.triangles), 3),
+            Vt.IntArray.FromNumpy(np.ascontiguousarray(self.triangles.reshape(-1))),
+            UsdGeom.PointBased.ComputeExtent(points) if len(points) else None,
+        )
+
+
+class _MeshArrays(NamedTuple):
+    points: Any
+    counts: Any
+    """Number of corners of each face."""
+    indices: Any
+    extent: Any
+    """Lower and upper corner; None without points."""
 
 
 def new_stage(up_axis: str, metres_per_unit: float) -> Usd.Stage:
@@ -68,14 +89,13 @@ class PrimAuthor:
         """Return a new mesh below the path `parent`."""
         prim = self.define(parent, name, "Mesh")
         geometry = UsdGeom.Mesh(prim)
-        points = Vt.Vec3fArray.FromNumpy(np.ascontiguousarray(mesh.points))
-        geometry.CreatePointsAttr(points)
-        geometry.CreateFaceVertexCountsAttr(Vt.IntArray(len(mesh.triangles), 3))
-        geometry.CreateFaceVertexIndicesAttr(Vt.IntArray.FromNumpy(np.ascontiguousarray(mesh.triangles.reshape(-1))))
+        arrays = mesh.arrays
+        geometry.CreatePointsAttr(arrays.points)
+        geometry.CreateFaceVertexCountsAttr(arrays.counts)
+        geometry.CreateFaceVertexIndicesAttr(arrays.indices)
         geometry.CreateSubdivisionSchemeAttr(UsdGeom.Tokens.none)
-        extent = UsdGeom.PointBased.ComputeExtent(points) if len(points) else None
-        if extent:
-            geometry.CreateExtentAttr(extent)
+        if arrays.extent:
+            geometry.CreateExtentAttr(arrays.extent)
         if mesh.colors is not None and len(mesh.colors):
             self._color(geometry, mesh, mesh.colors)
         return prim

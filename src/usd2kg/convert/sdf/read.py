@@ -9,6 +9,7 @@ from pxr import Gf, Kind, Sdf, Usd, UsdPhysics, UsdSemantics, Vt
 
 from usd2kg.convert.converted import Converted
 from usd2kg.convert.prims import PrimAuthor, custom_data, new_stage, valid_text
+from usd2kg.convert.sdf.budget import Budget
 from usd2kg.convert.sdf.frames import MODEL_FRAME, NESTED, Scope
 from usd2kg.convert.sdf.joints import define_joint
 from usd2kg.convert.sdf.model import Asset, Link, Model, Pose, World
@@ -29,23 +30,25 @@ def read_prims(path: Path) -> Converted:
     The default prim is the world, the model of a file with one model, or else a prim named after the file.
 
     Raises:
-        SceneError: it is no SDFormat file, has no world and no model, or includes itself.
+        SceneError: it is no SDFormat file, has no world and no model, includes itself, or has more than a
+            scene can have.
     """
-    notes, resources = Notes(), Resources(path)
-    world = SdfReader(path, resources, notes).read()
+    notes, resources, budget = Notes(), Resources(path), Budget(path)
+    world = SdfReader(path, resources, notes, budget).read()
     stage = new_stage("Z", 1.0)
-    _StageWriter(stage, resources, notes).write(world, path)
+    _StageWriter(stage, resources, notes, budget).write(world, path)
     return Converted(stage, f"usd2kg {version('usd2kg')}", tuple(notes))
 
 
 class _StageWriter:
     """Writes models as prims; `SdfReader` limits how deep they are nested."""
 
-    def __init__(self, stage: Usd.Stage, resources: Resources, notes: Notes) -> None:
+    def __init__(self, stage: Usd.Stage, resources: Resources, notes: Notes, budget: Budget) -> None:
         self._stage = stage
         self._author = PrimAuthor(stage)
         self._resources = resources
         self._notes = notes
+        self._budget = budget
         self._visuals: VisualAuthor | None = None
 
     def write(self, world: World, path: Path) -> None:
@@ -115,7 +118,7 @@ class _StageWriter:
     def _visual_author(self, path: str) -> VisualAuthor:
         if self._visuals is None:
             root = f"/{path.split('/')[1]}"
-            self._visuals = VisualAuthor(self._author, root, self._resources, self._notes)
+            self._visuals = VisualAuthor(self._author, root, self._resources, self._notes, self._budget)
         return self._visuals
 
 

@@ -9,6 +9,7 @@ from typing import NamedTuple
 import numpy as np
 
 from usd2kg.convert.converted import parse_error
+from usd2kg.convert.sdf.budget import Budget
 from usd2kg.convert.sdf.elements import first_waypoint, read_axis, read_frame, read_link, read_pose, skin_of
 from usd2kg.convert.sdf.merge import merge_models
 from usd2kg.convert.sdf.model import Asset, Frame, Joint, Link, Model, Pose, World
@@ -17,16 +18,10 @@ from usd2kg.convert.sdf.resources import ResourceError, Resources, asset_name
 from usd2kg.convert.sdf.values import is_true
 from usd2kg.convert.sdf.xml_files import XmlFiles
 from usd2kg.convert.sdf.xml_tree import XmlElement, XmlError
-from usd2kg.errors import SceneError
 
 __all__ = ["EXPECTED", "SdfReader"]
 
 EXPECTED = "an SDFormat file, whose root element is <sdf> and has a world or a model"
-_MAX_ELEMENTS = 500_000
-"""Models, links, visuals, joints, frames and includes of a world, with all that are included.
-
-Few lines can include without end. Each kB of an included file counts as one, too, whatever is in it.
-"""
 _BYTES_PER_COUNT = 1024
 _MAX_LEVELS = 32
 """Models in each other."""
@@ -57,12 +52,12 @@ class _Place(NamedTuple):
 class SdfReader:
     """Reads a file and what it includes."""
 
-    def __init__(self, path: Path, resources: Resources, notes: Notes) -> None:
+    def __init__(self, path: Path, resources: Resources, notes: Notes, budget: Budget) -> None:
         self._path = path
         self._resources = resources
         self._notes = notes
+        self._budget = budget
         self._files = XmlFiles()
-        self._count = 0
 
     def read(self) -> World:
         """Return the first world of the file, or its models.
@@ -190,17 +185,10 @@ class SdfReader:
     def _count_model(self, element: XmlElement, place: _Place) -> None:
         self._count_elements(element, place)
         if place.level >= _MAX_LEVELS:
-            raise self._too_much(element, place, f"models that are nested more than {_MAX_LEVELS} deep")
+            raise self._budget.too_much(element, place.path, f"models that are nested more than {_MAX_LEVELS} deep")
 
     def _count_elements(self, element: XmlElement, place: _Place, count: int = 1) -> None:
-        self._count += count
-        if self._count > _MAX_ELEMENTS:
-            kinds = "models, links, visuals, joints and frames"
-            found = f"more than {_MAX_ELEMENTS:,} {kinds}, with those that it includes"
-            raise self._too_much(element, place, found)
-
-    def _too_much(self, element: XmlElement, place: _Place, found: str) -> SceneError:
-        return parse_error(self._path, f"{place.path.name}, line {element.line}: it has {found}", "fewer of them")
+        self._budget.count_elements(element, place.path, count)
 
     def _include(self, element: XmlElement, place: _Place) -> Model | None:
         """Return the model that an include names; one without links if it cannot be found; None for a light."""

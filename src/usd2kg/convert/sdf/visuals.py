@@ -9,6 +9,7 @@ from pxr import Usd, UsdGeom, UsdShade, Vt
 
 from usd2kg.convert.materials import MaterialAuthor, SurfaceMaterial
 from usd2kg.convert.prims import PrimAuthor, SourceMesh
+from usd2kg.convert.sdf.budget import Budget
 from usd2kg.convert.sdf.meshes import MeshFiles, MeshPart
 from usd2kg.convert.sdf.model import Visual
 from usd2kg.convert.sdf.notes import Notes
@@ -29,11 +30,12 @@ _MIN_OUTLINE = 3
 class VisualAuthor:
     """Authors visuals as prims."""
 
-    def __init__(self, author: PrimAuthor, root: str, resources: Resources, notes: Notes) -> None:
+    def __init__(self, author: PrimAuthor, root: str, resources: Resources, notes: Notes, budget: Budget) -> None:
         """Keep materials in a scope below the path `root`."""
         self._author = author
         self._resources = resources
         self._notes = notes
+        self._budget = budget
         self._files = MeshFiles(resources)
         self._materials = MaterialAuthor(author, root)
         self._meshes = MeshAuthor(author, root, self._materials)
@@ -141,6 +143,7 @@ class VisualAuthor:
             self._note(visual, shape, f"the mesh {uri} is not read ({error}); it has no geometry")
             return []
         parts, center = self._submesh(parts, shape, visual)
+        self._budget.count_mesh(shape, visual.path, len(parts), sum(len(part.geometry.faces) for part in parts))
         scale = np.diag([*self._numbers(shape, visual, "scale", 3, (1.0, 1.0, 1.0)), 1.0])
         prim = self._author.define(parent, visual.name)
         self._author.move(prim, matrix)
