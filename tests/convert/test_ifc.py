@@ -1,5 +1,6 @@
 """IFC files are converted at reading: storeys, rooms, elements, kinds of things, identifiers, properties, units."""
 
+import re
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
@@ -283,6 +284,26 @@ def in_a_circle(house: House) -> None:
 def test_what_the_library_would_read_for_ever_is_refused(tmp_path: Path, damage: Callable[[House], None], message: str):
     with pytest.raises(SceneError, match=message):
         read_scene(damaged(tmp_path, damage))
+
+
+@pytest.mark.parametrize("surplus", ["#{id}", "#1", "5.", ".T.", "(#1)"])
+def test_a_surplus_attribute_before_the_global_id_is_refused(tmp_path: Path, surplus: str):
+    path = damaged(tmp_path, lambda house: None)
+    text = path.read_text()
+    found = re.search(r"#(\d+)=IFCWALL\(", text)
+    assert found is not None
+    path.write_text(text.replace(found[0], f"{found[0]}{surplus.format(id=found[1])},"))
+    message = (
+        rf"house\.ifc: cannot be converted \(#{found[1]} IfcWall has a GlobalId that is no text; it may have a surplus"
+    )
+    with pytest.raises(SceneError, match=message):
+        read_scene(path)
+
+
+def test_a_surplus_attribute_at_the_end_is_ignored(tmp_path: Path):
+    path = damaged(tmp_path, lambda house: None)
+    path.write_text(re.sub(r"(#\d+=IFCWALL\(.*)\);", r"\1,$);", path.read_text()))
+    assert [obj.name for obj in read_scene(path).objects] == ["Wall"]
 
 
 def test_whatever_the_library_raises_is_one_error(tmp_path: Path):

@@ -45,7 +45,7 @@ def read_prims(path: Path) -> Converted:
 
 
 def _check_structure(path: Path, model: Any) -> None:
-    """Refuse what IfcOpenShell would tessellate indefinitely: a missing GlobalId, and a whole that is its own part.
+    """Refuse what IfcOpenShell would tessellate indefinitely: a GlobalId that is no text, a whole that is its own part.
 
     Raises:
         SceneError: the file has one.
@@ -53,6 +53,10 @@ def _check_structure(path: Path, model: Any) -> None:
     for entity in model.by_type("IfcRoot"):
         if not entity.GlobalId:
             raise parse_error(path, f"#{entity.id()} has no GlobalId", _EXPECTED)
+        if not isinstance(entity.GlobalId, str):
+            # A surplus attribute shifts the others, so that a reference may be where the text is expected.
+            found = f"#{entity.id()} {entity.is_a()} has a GlobalId that is no text; it may have a surplus attribute"
+            raise parse_error(path, found, _EXPECTED)
     whole = {
         part.id(): relation.RelatingObject.id()
         for relation in model.by_type("IfcRelAggregates")
