@@ -117,6 +117,13 @@ def _glb(folder: Path) -> None:
     scene.export(folder / "kitchen.glb")
 
 
+def _inputs(folder: Path) -> None:
+    _glb(folder)
+    (folder / "flat").mkdir()
+    for name in ("table", "cup"):
+        trimesh.creation.box((1, 1, 1)).export(folder / "flat" / f"{name}.obj")
+
+
 def _two_kitchens(folder: Path) -> None:
     """Write the demo kitchen, a changed copy, graphs of both, and decisions about the first one."""
     _kitchen(folder)
@@ -174,7 +181,7 @@ PAGES: Mapping[str, Callable[[Path], None]] = {
     "docs/evaluation.md": _evaluation,
     "docs/formats.md": _kitchen,
     "docs/grounding.md": _nothing,
-    "docs/inputs.md": _glb,
+    "docs/inputs.md": _inputs,
     "docs/labels.md": _labels,
     "docs/llm.md": _nothing,
     "docs/ontologies.md": _ontologies,
