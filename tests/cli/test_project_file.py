@@ -1,21 +1,59 @@
 """usd2kg.toml: options that a project sets once."""
 
 import json
+from collections.abc import Iterator
 from pathlib import Path
+from typing import Any
 
 import pytest
+import typer
 
 from tests.cli.conftest import Run
 from usd2kg.cli.app import app
 from usd2kg.cli.options.bundles import OptionBundle
 from usd2kg.cli.options.common import BUILT_IN_ONTOLOGIES
-from usd2kg.cli.project_file import ALLOWED_ANYWHERE, CommandOption, read_project_options, walk_options
+from usd2kg.cli.project_file import (
+    ALLOWED_ANYWHERE,
+    CommandOption,
+    find_global_options,
+    read_project_options,
+    walk_options,
+)
 from usd2kg.errors import Usd2kgError
 from usd2kg.grounding.registry import GROUNDERS
 from usd2kg.ontology import load_tbox
 from usd2kg.query import load_graph
 
-OPTIONS: dict[str, CommandOption] = {option.key: option for _, options in walk_options(app) for option in options}
+OPTIONS: dict[str, CommandOption] = {
+    option.key: option
+    for options in (find_global_options(app), *dict(walk_options(app)).values())
+    for option in options
+}
+WITHOUT_A_KEY = {
+    "help": "prints and exits",
+    "version": "prints and exits",
+    "install-completion": "changes the shell and exits",
+    "show-completion": "prints and exits",
+    "no-project-file": "decides whether the file is read",
+}
+"""Option of the command line → why it is not one of a project."""
+
+
+def walk_commands(command: Any = None, words: tuple[str, ...] = ()) -> Iterator[tuple[tuple[str, ...], Any]]:
+    """Yield each command and group, as the parser of the command line knows it."""
+    command = command or typer.main.get_command(app)
+    yield words, command
+    for name, below in getattr(command, "commands", {}).items():
+        yield from walk_commands(below, (*words, name))
+
+
+COMMANDS = dict(walk_commands())
+
+
+def options_of(words: tuple[str, ...]) -> list[Any]:
+    """Return the options of a command that a file may set."""
+    options = [one for one in COMMANDS[words].params if one.param_type_name == "option"]
+    return [one for one in options if one.opts[0].removeprefix("--") not in WITHOUT_A_KEY]
 
 
 @pytest.fixture(autouse=True)
@@ -81,6 +119,77 @@ class TestPrecedence:
         assert arguments("render", "s.usd") == ["render", "s.usd"]
         assert arguments("render", "--color-by=room", "s.usd")[1].endswith("d.csv")
         assert arguments("render", "s.usd", "--ask", "where is the mug?")[1].endswith("d.csv")
+
+
+class TestEveryOption:
+    @pytest.mark.parametrize("words", [words for words in COMMANDS if options_of(words)], ids=" ".join)
+    def test_it_is_read_from_the_file_and_reaches_its_command(self, words: tuple[str, ...]):
+        chosen = COMMANDS[words]
+        parser = chosen.make_parser(chosen.context_class(chosen, **chosen.context_settings))
+        command = words or ("build",)
+        is_path = {option.key: option.is_path for option in dict(walk_options(app))[command]}
+        for option in options_of(words):
+            key = option.opts[0].removeprefix("--")
+            value = "true" if option.is_flag else '"7"'
+            write(f"[{'.'.join(command)}]\n{key} = {value}")
+            # What the option qualifies.
+            beside = ["--decisions=d.csv"] if key == "reviewer" else []
+            beside += ["--color-by=class"] if words == ("render",) and key != "color-by" else []
+            found = read_project_options(app, [*command, *beside, "scene"])
+            assert found is not None, key
+            assert found.keys == (key,)
+            assert bool(found.global_options) == (not words)
+            given = [*found.global_options] or [one for one in found.arguments[len(words) :] if one not in beside]
+            parsed, _, _ = parser.parse_args(given)
+            expected: Any = True if option.is_flag else str(Path.cwd() / "7") if is_path.get(key) else "7"
+            assert parsed[option.name] == ([expected] if option.multiple else expected), key
+
+    def test_those_without_a_key_are_refused(self):
+        known = {name.removeprefix("--") for one in COMMANDS.values() for p in one.params for name in p.opts}
+        assert known >= WITHOUT_A_KEY.keys() - {"help"}
+        assert OPTIONS.keys().isdisjoint(WITHOUT_A_KEY)
+        for key in WITHOUT_A_KEY:
+            write(f"{key} = true")
+            with pytest.raises(Usd2kgError, match=f"'{key}' (is not an option|decides whether this file is read)"):
+                arguments("build", "s.usd")
+
+    def test_a_group_with_a_default_command_has_its_options(self):
+        write('[label.write]\nmode = "skip"')
+        assert arguments("label", "s.usd", "g.ttl") == ["label", "write", "--mode=skip", "s.usd", "g.ttl"]
+        assert arguments("label", "lint", "s.usd") == ["label", "lint", "s.usd"]
+        assert arguments("label") == ["label"]
+        assert arguments("label", "--help") == ["label", "--help"]
+
+
+class TestGlobalOptions:
+    def test_they_are_set_for_all_commands_or_one(self):
+        write("no-color = true\n[studio]\nlog-format = 'json'")
+        found = read_project_options(app, ["studio", "s.usd"])
+        assert found is not None
+        assert found.global_options == ("--no-color", "--log-format=json")
+        found = read_project_options(app, ["studio", "s.usd"], ["--log-format=text"])
+        assert found is not None
+        assert found.global_options == ("--no-color",)
+
+    def test_the_form_of_messages_holds_from_the_first_one(self, run: Run, room: Path, monkeypatch):
+        monkeypatch.setattr("logging.root.handlers", [])
+        write('log-format = "json"', room.parent)
+        lines = run("inspect", room).err.splitlines()
+        assert json.loads(lines[0])["message"].endswith("usd2kg.toml: sets log-format")
+        assert {json.loads(line)["level"] for line in lines} == {"info"}
+        assert any("step" in json.loads(line) for line in lines)
+
+    def test_verbose_shows_the_traceback(self, run: Run, room: Path):
+        write("verbose = true", room.parent)
+        assert "Traceback" in run("build", room, "--evidence=none-such").err
+        assert "Traceback" not in run("build", room, "--evidence=none-such", "--no-project-file").err
+
+    def test_colours_are_turned_off(self, run: Run, room: Path, monkeypatch):
+        called: list[bool] = []
+        monkeypatch.setattr("usd2kg.cli.app.forbid_colors", lambda: called.append(True))
+        write("no-color = true", room.parent)
+        assert run("inspect", room).code == 0
+        assert called
 
 
 class TestValues:

@@ -133,23 +133,18 @@ def main() -> None:
             # Escape characters that the terminal's encoding lacks instead of failing.
             stream.reconfigure(errors="backslashreplace")
     global_options, arguments = _split_global_options(sys.argv[1:])
-    is_verbose = "--verbose" in global_options
     try:
-        if "--log-format=json" in global_options:
-            # Before the project file is announced.
-            set_up_logging(logging.INFO, "json")
-        if "--no-color" in global_options:
-            forbid_colors()
+        _set_up_output(global_options)
         if "--no-project-file" not in global_options:
-            arguments = _with_project_options(arguments)
+            global_options, arguments = _with_project_options(global_options, arguments)
         app(args=[*global_options, *arguments], prog_name="usd2kg")
     except Usd2kgError as error:
-        if is_verbose:
+        if "--verbose" in global_options:
             traceback.print_exc()
         notify(f"usd2kg: {to_single_line(str(error))}", logging.ERROR)
         sys.exit(2)
     except (MemoryError, RecursionError) as error:
-        if is_verbose:
+        if "--verbose" in global_options:
             traceback.print_exc()
         notify(
             f"usd2kg: {_EXHAUSTED[MemoryError if isinstance(error, MemoryError) else RecursionError]}", logging.ERROR
@@ -175,10 +170,19 @@ def _split_global_options(arguments: Sequence[str]) -> tuple[list[str], list[str
     return found, others
 
 
-def _with_project_options(arguments: list[str]) -> list[str]:
-    """Return the arguments with the options of `usd2kg.toml`, which are announced on stderr."""
-    found = read_project_options(app, arguments)
+def _with_project_options(global_options: list[str], arguments: list[str]) -> tuple[list[str], list[str]]:
+    """Return global options and arguments with the options of `usd2kg.toml`, which are announced on stderr."""
+    found = read_project_options(app, arguments, global_options)
     if found is None:
-        return arguments
+        return global_options, arguments
+    _set_up_output(found.global_options)
     notify(f"{found.file}: sets {', '.join(found.keys)}")
-    return [*found.arguments]
+    return [*found.global_options, *global_options], [*found.arguments]
+
+
+def _set_up_output(global_options: Sequence[str]) -> None:
+    """Choose colours and the form of messages before the first message."""
+    if "--log-format=json" in global_options:
+        set_up_logging(logging.INFO, "json")
+    if "--no-color" in global_options:
+        forbid_colors()

@@ -9,7 +9,13 @@ import typer
 from typer import Argument
 
 from usd2kg.cli.output import notify
-from usd2kg.cli.project_file import ALLOWED_ANYWHERE, PROJECT_OPTIONS_FILE, CommandOption, walk_options
+from usd2kg.cli.project_file import (
+    ALLOWED_ANYWHERE,
+    PROJECT_OPTIONS_FILE,
+    CommandOption,
+    find_global_options,
+    walk_options,
+)
 from usd2kg.errors import OutputError
 
 __all__ = ["make_init_command"]
@@ -21,7 +27,7 @@ _INTRODUCTION = """\
 """
 _EXAMPLES = {
     **dict.fromkeys(("alignment", "decisions"), '"{}.sssom.tsv"'),
-    **dict.fromkeys(("abstain", "every-prim", "expand-instancers"), "true"),
+    **dict.fromkeys(("abstain", "every-prim", "expand-instancers", "no-color", "verbose"), "true"),
     **dict.fromkeys(("dictionary", "class-sizes", "objects"), '"{}.csv"'),
     **dict.fromkeys(("relations", "rules"), '"{}.toml"'),
     "annotations": '"owl"',
@@ -31,6 +37,7 @@ _EXAMPLES = {
     "grounder": '"lexical"',
     "include": '["/World/Props/*"]',
     "kind": '["component"]',
+    "log-format": '"json"',
     "metres-per-unit": "0.01",
     "ontology": '"ontology.ttl"',
     "profile": '"auto"',
@@ -66,7 +73,7 @@ def make_init_command(app: typer.Typer) -> Callable[..., None]:
 
 
 def _content(app: typer.Typer) -> str:
-    options: dict[str, CommandOption] = {}
+    options = {option.key: option for option in find_global_options(app)}
     for _, found in walk_options(app):
         for option in found:
             options.setdefault(option.key, option)
@@ -75,6 +82,7 @@ def _content(app: typer.Typer) -> str:
 
 
 def _entry(option: CommandOption) -> str:
-    lines = textwrap.wrap(option.help, _WIDTH - 2, break_on_hyphens=False)
+    # Where an option stands on the command line is of no interest here.
+    lines = textwrap.wrap(option.help.removesuffix(" Accepted anywhere."), _WIDTH - 2, break_on_hyphens=False)
     example = _EXAMPLES[option.key].format(option.key)
     return "".join(f"\n# {line}" for line in lines) + f"\n# {option.key} = {example}\n"

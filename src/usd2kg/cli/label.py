@@ -27,10 +27,12 @@ __all__ = ["app"]
 class _DefaultsToWrite(TyperGroup):
     """A command group whose default command is `write`: `usd2kg label SCENE RUN`."""
 
+    default_command = "write"
+
     def parse_args(self, ctx: Any, args: list[str]) -> list[str]:
-        """Insert `write` unless the first argument is a command or asks for help."""
+        """Insert the default command unless the first argument is a command or asks for help."""
         if args and args[0] not in {*self.commands, *ctx.help_option_names}:
-            args = ["write", *args]
+            args = [self.default_command, *args]
         return super().parse_args(ctx, args)
 
 

@@ -1,14 +1,15 @@
 """usd2kg.toml: options of commands that a project sets once.
 
 A top-level key is the name of an option, for every command that has it; a table is a command, such as `[build]` or
-`[store.load]`. Options on the command line take precedence. Relative paths start at the folder of the file.
+`[store.load]`. Options on the command line take precedence. Relative paths start at the folder of the file. No key sets
+`--no-project-file`, or an option that prints something and exits, such as `--help`.
 """
 
 import difflib
 import inspect
 import os
 import tomllib
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Container, Iterable, Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import Any, NamedTuple, get_args, get_origin
 
@@ -19,19 +20,28 @@ from usd2kg.cli.options.common import BUILT_IN_ONTOLOGIES
 from usd2kg.cli.options.stores import FOLDER_OR_URL
 from usd2kg.errors import Usd2kgError
 
-__all__ = ["PROJECT_OPTIONS_FILE", "CommandOption", "ProjectOptions", "read_project_options", "walk_options"]
+__all__ = [
+    "PROJECT_OPTIONS_FILE",
+    "CommandOption",
+    "ProjectOptions",
+    "find_global_options",
+    "read_project_options",
+    "walk_options",
+]
 
 PROJECT_OPTIONS_FILE = "usd2kg.toml"
 ALLOWED_ANYWHERE = frozenset(
     {
         *("abstain", "alignment", "annotations", "base", "class-sizes", "decisions", "dictionary", "evidence"),
-        *("every-prim", "exclude", "expand-instancers", "include", "kind", "metres-per-unit", "objects", "ontology"),
-        *("profile", "regime", "relation-kinds", "relations", "reviewer", "rules", "time", "up-axis", "viewpoint"),
+        *("every-prim", "exclude", "expand-instancers", "include", "kind", "log-format", "metres-per-unit", "no-color"),
+        *("objects", "ontology", "profile", "regime", "relation-kinds", "relations", "reviewer", "rules", "time"),
+        *("up-axis", "verbose", "viewpoint"),
     }
 )
 """Options that neither write a file nor contact a server. A file that is not in the current folder or above it, such as
 one that came with a downloaded scene, may set no others."""
 _OFFLINE_GROUNDERS = frozenset({"lexical", "dictionary", "embedding", "volume"})
+_IGNORES_THE_FILE = "no-project-file"
 _QUALIFIED = {
     "decisions": ("color-by", "ask"),
     "ontology": ("color-by", "ask"),
@@ -65,11 +75,15 @@ class ProjectOptions(NamedTuple):
 
     file: Path
     keys: tuple[str, ...]
+    global_options: tuple[str, ...]
+    """The options of the file for all commands, such as `--no-color`."""
     arguments: tuple[str, ...]
-    """The arguments of the call with the options of the file."""
+    """The arguments of the call with the other options of the file."""
 
 
-def read_project_options(app: typer.Typer, arguments: Sequence[str]) -> ProjectOptions | None:
+def read_project_options(
+    app: typer.Typer, arguments: Sequence[str], global_options: Sequence[str] = ()
+) -> ProjectOptions | None:
     """Return the options that the nearest `usd2kg.toml` sets for a call; None if there are none.
 
     The file is looked for in the folder of the first argument that is a file or folder and no value of an option, else
@@ -78,13 +92,14 @@ def read_project_options(app: typer.Typer, arguments: Sequence[str]) -> ProjectO
     Args:
         app: the command line.
         arguments: the arguments of the call, without global options.
+        global_options: the global options of the call.
 
     Raises:
         Usd2kgError: the file does not parse, or an option is unknown, of the wrong type, or not allowed there.
     """
-    commands = dict(walk_options(app))
-    command = next((tuple(arguments[:n]) for n in (1, 2) if tuple(arguments[:n]) in commands), None)
-    given = arguments[len(command) :] if command is not None else ()
+    shared = find_global_options(app)
+    commands = {command: [*shared, *options] for command, options in walk_options(app)}
+    command, given = _split_command(app, arguments, commands)
     if command is None or {"-h", "--help"}.intersection(given):
         return None
     file = _find_file(_positional(given, commands[command]))
@@ -95,10 +110,12 @@ def read_project_options(app: typer.Typer, arguments: Sequence[str]) -> ProjectO
     is_trusted = Path.cwd().is_relative_to(file.parent)
     keys: list[str] = []
     added: list[str] = []
+    added_globally: list[str] = []
     values = {option: _value_for(tables, command, option.key) for option in commands[command]}
-    is_set = {option.key: value is not None or _is_given(option, given) for option, value in values.items()}
+    every_given = (*global_options, *given)
+    is_set = {option.key: value is not None or _is_given(option, every_given) for option, value in values.items()}
     for option, value in values.items():
-        if value is None or _is_given(option, given):
+        if value is None or _is_given(option, every_given):
             continue
         qualified = [is_set[key] for key in _QUALIFIED.get(option.key, ()) if key in is_set]
         if qualified and not any(qualified):
@@ -107,8 +124,31 @@ def read_project_options(app: typer.Typer, arguments: Sequence[str]) -> ProjectO
             problem = "may write a file or contact a server, and the file is neither in the current folder nor above it"
             raise Usd2kgError(f"{file}: {option.key} {problem}; change to {file.parent}, or use --no-project-file")
         keys.append(option.key)
-        added.extend(_as_arguments(file, option, value))
-    return ProjectOptions(file, tuple(keys), (*command, *added, *given)) if keys else None
+        (added_globally if option in shared else added).extend(_as_arguments(file, option, value))
+    return ProjectOptions(file, tuple(keys), tuple(added_globally), (*command, *added, *given)) if keys else None
+
+
+def find_global_options(app: typer.Typer) -> list[CommandOption]:
+    """Return the options that every command accepts."""
+    assert app.registered_callback is not None, "the application has global options"
+    assert app.registered_callback.callback is not None, "its callback is a function"
+    parameters = inspect.signature(app.registered_callback.callback).parameters.values()
+    options = [option for one in parameters if (option := _option_of(one)) is not None]
+    return [option for option in options if option.key != _IGNORES_THE_FILE]
+
+
+def _split_command(
+    app: typer.Typer, arguments: Sequence[str], commands: Container[_Command]
+) -> tuple[_Command | None, Sequence[str]]:
+    """Return the command of a call, None if it names none, and the arguments that follow."""
+    for count in (1, 2):
+        if tuple(arguments[:count]) in commands:
+            return tuple(arguments[:count]), arguments[count:]
+    defaults = {group.name: getattr(group.typer_instance.info.cls, "default_command", None) for group in _groups(app)}
+    name = arguments[0] if len(arguments) > 1 else None
+    if name is not None and (default := defaults.get(name)) is not None:
+        return (name, default), arguments[1:]
+    return None, ()
 
 
 def walk_options(app: typer.Typer, above: _Command = ()) -> Iterator[tuple[_Command, list[CommandOption]]]:
@@ -118,9 +158,20 @@ def walk_options(app: typer.Typer, above: _Command = ()) -> Iterator[tuple[_Comm
         assert registered.callback is not None, "all commands are functions"
         parameters = inspect.signature(registered.callback).parameters.values()
         yield (*above, registered.name), [option for one in parameters if (option := _option_of(one)) is not None]
+    for group in _groups(app):
+        yield from walk_options(group.typer_instance, (*above, group.name))
+
+
+class _Group(NamedTuple):
+    name: str
+    typer_instance: typer.Typer
+
+
+def _groups(app: typer.Typer) -> Iterator[_Group]:
+    """Yield the groups of commands."""
     for group in app.registered_groups:
         assert group.typer_instance is not None, "groups are applications"
-        yield from walk_options(group.typer_instance, (*above, str(group.name)))
+        yield _Group(str(group.name), group.typer_instance)
 
 
 def _option_of(parameter: inspect.Parameter) -> CommandOption | None:
@@ -190,6 +241,8 @@ def _check_table(file: Path, table: Any, options: Sequence[CommandOption], name:
 
 
 def _check_known(file: Path, key: str, known: set[str], expected: str) -> None:
+    if key == _IGNORES_THE_FILE:
+        raise Usd2kgError(f"{file}: {key!r} decides whether this file is read; expected it on the command line")
     if key not in known:
         near = difflib.get_close_matches(key, sorted(known), 1)
         raise Usd2kgError(f"{file}: {key!r} is not {expected}" + (f"; did you mean {near[0]!r}?" if near else ""))
