@@ -1,7 +1,6 @@
 """The whole pipeline: scene + ontology → knowledge graph."""
 
 from collections.abc import Iterable, Iterator, Mapping
-from contextlib import nullcontext
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -79,7 +78,7 @@ def build(
     Raises:
         Usd2kgError: an input cannot be read, or an option is invalid.
     """
-    with show_steps("read", "ontology", "ground", "relate", "instantiate") if progress else nullcontext():
+    with show_steps("read", "ontology", "ground", "relate", "instantiate", is_wanted=progress):
         read = scene if isinstance(scene, Scene) else read_scene(scene, paths=paths, options=options)
         tbox = ontology if isinstance(ontology, TBox) else open_tbox(ontology, read, stated=_places_decided(decisions))
         if alignment is not None:

@@ -14,7 +14,7 @@ from contextvars import ContextVar
 from functools import wraps
 from typing import Any, ParamSpec, TypeVar
 
-__all__ = ["TRACING_VARIABLES", "followed_steps", "set_up_tracing", "span", "traced"]
+__all__ = ["TRACING_VARIABLES", "are_steps_followed", "followed_steps", "set_up_tracing", "span", "traced"]
 
 logger = logging.getLogger(__name__)
 
@@ -35,6 +35,11 @@ def followed_steps(notice: Callable[[str], None]) -> Iterator[None]:
         yield
     finally:
         _follower.reset(token)
+
+
+def are_steps_followed() -> bool:
+    """Return whether a context of `followed_steps` is open."""
+    return _follower.get() is not None
 
 
 @contextmanager

@@ -21,6 +21,7 @@ from usd2kg.graph import (
 from usd2kg.graph.vocabulary import PREFIXES
 from usd2kg.grounding import Grounding
 from usd2kg.pipeline import BuildResult, build
+from usd2kg.progress import show_steps
 from usd2kg.query import Answer, GraphStore, load_graph
 from usd2kg.query.body_table import Body
 from usd2kg.query.lookup import SceneFacts
@@ -122,14 +123,15 @@ class World(RichDisplay):
         write_graph(_document(self) if self.built is None else self.built.graph, path)
 
 
-def open(source: Path | str, *, scene: str | None = None, **options: Any) -> World:
+def open(source: Path | str, *, scene: str | None = None, progress: bool = False, **options: Any) -> World:
     """Return the world of a stage, whose graph is built, or of a graph, which is loaded.
 
     Args:
         source: a stage, a file or a folder of OBJ files that is converted to one, a graph file, the folder of a store,
             or the address of a server.
         scene: the scene of a store, by IRI, name or label; only needed if it has several.
-        options: options of `usd2kg.build`, such as `ontology`, `grounder` and `progress`; only for a stage.
+        progress: show a bar of the steps in a notebook or on a terminal, see `usd2kg.progress.show_steps`.
+        options: options of `usd2kg.build`, such as `ontology` and `grounder`; only for a stage.
 
     Raises:
         Usd2kgError: the source cannot be read, or an option is invalid or does not apply to it.
@@ -137,15 +139,17 @@ def open(source: Path | str, *, scene: str | None = None, **options: Any) -> Wor
     place = str(source)
     if is_store(place) and not (Path(place).is_dir() and is_stage(Path(place))):
         _refuse(place, options)
-        return World(place, open_graph(place, _only_scene(place) if scene is None else scene))
+        with show_steps("parse", is_wanted=progress):
+            return World(place, open_graph(place, _only_scene(place) if scene is None else scene))
     if scene is not None:
         raise GraphError(f"{place}: is no store; leave out scene={scene!r}, which selects one of its graphs")
     if is_stage(Path(place)):
-        built = build(place, **options)
+        built = build(place, progress=progress, **options)
         return World(place, GraphStore.from_triples(built.graph.triples, place), built)
     _check_ending(Path(place))
     _refuse(place, options)
-    return World(place, load_graph(place, is_indexed=True))
+    with show_steps("parse", is_wanted=progress):
+        return World(place, load_graph(place, is_indexed=True))
 
 
 def _refuse(place: str, options: Mapping[str, Any]) -> None:

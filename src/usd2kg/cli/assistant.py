@@ -12,6 +12,7 @@ from usd2kg.cli.options.stores import GraphSource, SceneName
 from usd2kg.cli.output import emit, notify, print_json
 from usd2kg.cli.query import answer_text
 from usd2kg.errors import GraphError, Usd2kgError
+from usd2kg.tracing import span
 
 if TYPE_CHECKING:
     from usd2kg.assistant import InterpretedAnswer
@@ -42,9 +43,13 @@ def ask_command(
         return
     if since is not None:
         raise GraphError("ask: --since is for questions without --model; leave one of them out")
+    from usd2kg.progress import show_steps  # noqa: PLC0415
     from usd2kg.stores import open_graph  # noqa: PLC0415 - loads OpenUSD, too slow for --help
 
-    asked = _ask_model(open_graph(graph, scene), text, model, completions)
+    with show_steps("parse", "answer", is_wanted=not json):
+        store = open_graph(graph, scene)
+        with span("answer"):
+            asked = _ask_model(store, text, model, completions)
     notify(f"understood as: {asked.understood}")
     notify(asked.answer.sparql.strip())
     if json:
@@ -56,16 +61,19 @@ def ask_command(
 def _ask_scenes(place: str, scene: str | None, text: str, since: Path | None, is_json: bool) -> None:
     """Print the answer about each scene of a store, or about one graph; scenes without an answer are left out."""
     from usd2kg.assistant import ask_offline  # noqa: PLC0415
+    from usd2kg.progress import show_steps  # noqa: PLC0415
     from usd2kg.stores import view_scenes  # noqa: PLC0415 - loads OpenUSD, too slow for --help
 
     answers: dict[str, InterpretedAnswer] = {}
     problems: list[GraphError] = []
-    graphs = view_scenes(place, scene)
-    for name, graph in graphs.items():
-        try:
-            answers[name] = ask_offline(graph, text, since)
-        except GraphError as error:
-            problems.append(error)
+    with show_steps("parse", "answer", is_wanted=not is_json):
+        graphs = view_scenes(place, scene)
+        with span("answer"):
+            for name, graph in graphs.items():
+                try:
+                    answers[name] = ask_offline(graph, text, since)
+                except GraphError as error:
+                    problems.append(error)
     if not answers:
         raise problems[0]
     first = next(iter(answers.values()))

@@ -82,7 +82,7 @@ def build_command(
         start = time.perf_counter()
         try:
             with (
-                show_progress(grounding, "read", "ground", "relate", "instantiate", "write"),
+                show_progress(grounding, "read", "ground", "relate", "instantiate", "write", is_wanted=not json),
                 steps.run(source, tbox, base) as (result, session),
             ):
                 if tbox is None:

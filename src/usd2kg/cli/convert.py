@@ -36,12 +36,14 @@ def convert_command(
     Commands that read a scene convert such files themselves; this one keeps the result.
     """
     from usd2kg.convert.write import convert_file  # noqa: PLC0415 - loads OpenUSD, too slow for --help
+    from usd2kg.progress import show_steps  # noqa: PLC0415
     from usd2kg.scene import ReadOptions  # noqa: PLC0415
 
     target = output or Path(f"{stem_of(source)}.usdc")
     # Checks the units.
     reading = ReadOptions(metres_per_unit=metres_per_unit, up_axis=up_axis)
-    converted = convert_file(source, target, metres_per_unit=reading.metres_per_unit, up_axis=reading.up_axis)
+    with show_steps("convert"):
+        converted = convert_file(source, target, metres_per_unit=reading.metres_per_unit, up_axis=reading.up_axis)
     for note in converted.notes:
         notify(note)
     notify(f"converted by {converted.converter}, written to {target}")

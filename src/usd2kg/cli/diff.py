@@ -106,7 +106,7 @@ def diff_command(
         check_writable(output)
         check_files([output], [old, new, ontology], reading)
     options = VersionOptions(reading.read_options(), kinds, base, is_grounded=not no_ground)
-    with show_steps("read", "ground", "relate", "instantiate"):
+    with show_steps("parse", "read", "ground", "relate", "instantiate", is_wanted=not json):
         before, after = read_versions(old, new, partial(_open_tbox, ontology), options)
     if file_format == "sparql":
         title = f"{to_single_line(str(old))} -> {to_single_line(str(new))}"

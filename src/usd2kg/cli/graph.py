@@ -11,6 +11,7 @@ from usd2kg.cli.options.stores import GraphSource, SceneName
 from usd2kg.cli.output import notify
 from usd2kg.errors import GraphError, OutputError
 from usd2kg.files import check_apart, check_writable, write_whole
+from usd2kg.tracing import span
 
 if TYPE_CHECKING:
     from usd2kg.graph import PropertyGraph
@@ -42,20 +43,24 @@ def draw_command(
     check_writable(target)
     check_apart([target], [graph])
     from usd2kg.diagrams import draw_room, draw_surroundings, to_png  # noqa: PLC0415
+    from usd2kg.progress import show_steps  # noqa: PLC0415
     from usd2kg.stores import open_graph  # noqa: PLC0415
 
-    store = open_graph(graph, scene)
-    if thing is None:
-        picture = draw_room(store, name)
-    else:
-        found = store.find(thing)
-        if len(found) > 1:
-            raise GraphError(
-                f"{thing!r} matches {len(found)} objects; expected a prim path, as listed by "
-                f"usd2kg query {graph} where is {thing}"
-            )
-        picture = draw_surroundings(store, found[0].value, f"{thing} in {name}")
-    write_whole(target, to_png(picture) if target.suffix.lower() == ".png" else picture.encode("utf-8"))
+    with show_steps("parse", "draw"):
+        store = open_graph(graph, scene)
+        with span("draw"):
+            if thing is None:
+                picture = draw_room(store, name)
+            else:
+                found = store.find(thing)
+                if len(found) > 1:
+                    raise GraphError(
+                        f"{thing!r} matches {len(found)} objects; expected a prim path, as listed by "
+                        f"usd2kg query {graph} where is {thing}"
+                    )
+                picture = draw_surroundings(store, found[0].value, f"{thing} in {name}")
+            content = to_png(picture) if target.suffix.lower() == ".png" else picture.encode("utf-8")
+    write_whole(target, content)
     notify(f"written to {target}")
 
 
@@ -77,12 +82,14 @@ def convert_command(
 ) -> None:
     """Write a graph in another format, with its statements in the same order where the format allows it."""
     from usd2kg.graph import graph_format, read_document, write_graph  # noqa: PLC0415
+    from usd2kg.progress import show_steps  # noqa: PLC0415
 
     graph_format(output)
     check_writable(output)
     check_apart([output], [graph])
-    document = read_document(graph)
-    write_graph(document, output)
+    with show_steps("parse", "write"):
+        document = read_document(graph)
+        write_graph(document, output)
     notify(f"{len(document.triples)} triples written to {output}")
 
 
@@ -106,6 +113,7 @@ def export_command(
 ) -> None:
     """Write a graph for another system: a property graph for Neo4j, or messages of ROS 2."""
     from usd2kg.graph import read_document, read_property_graph  # noqa: PLC0415
+    from usd2kg.progress import show_steps  # noqa: PLC0415
 
     exporter = _EXPORTERS.get(target)
     if exporter is None:
@@ -116,7 +124,13 @@ def export_command(
     folder = output or Path(f"{graph.stem}-{target}")
     if folder.exists() and not folder.is_dir():
         raise OutputError(f"{folder}: is not a folder; expected a folder for the exported files")
-    notify(exporter(lambda: read_property_graph(read_document(graph)), graph, folder, frame or "map"))
+
+    def read() -> "PropertyGraph":
+        return read_property_graph(read_document(graph))
+
+    with show_steps("parse", "export"):
+        written = exporter(read, graph, folder, frame or "map")
+    notify(written)
 
 
 _Read = Callable[[], "PropertyGraph"]
@@ -128,7 +142,8 @@ def _export_neo4j(read: _Read, source: Path, folder: Path, _frame: str) -> str:
 
     check_apart((folder / name for name in NEO4J_FILES), [source])
     exported = read()
-    write_neo4j(exported, folder)
+    with span("export"):
+        write_neo4j(exported, folder)
     return (
         f"{len(exported.nodes)} nodes and {len(exported.edges)} relationships written to {folder}; "
         "load.cypher loads them"
@@ -140,7 +155,9 @@ def _export_tf(read: _Read, source: Path, folder: Path, frame: str) -> str:
     from usd2kg.graph.export.ros.transforms import TF_FILES  # noqa: PLC0415
 
     check_apart((folder / name for name in TF_FILES), [source])
-    count = write_tf(read(), folder, frame)
+    exported = read()
+    with span("export"):
+        count = write_tf(exported, folder, frame)
     return f"{count} transforms written to {folder}: {', '.join(TF_FILES)}"
 
 
@@ -149,7 +166,9 @@ def _export_ros2(read: _Read, source: Path, folder: Path, frame: str) -> str:
     from usd2kg.graph.export.ros.detections import ROS2_FILES  # noqa: PLC0415
 
     check_apart((folder / name for name in ROS2_FILES), [source])
-    detections, relations = write_ros2(read(), folder, frame)
+    exported = read()
+    with span("export"):
+        detections, relations = write_ros2(exported, folder, frame)
     return f"{detections} detections and {relations} relations written to {folder}: {', '.join(ROS2_FILES)}"
 
 

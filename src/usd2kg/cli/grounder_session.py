@@ -57,12 +57,12 @@ class GrounderSession:
             notify(f"{len(waiting)} objects to review in {queue}; fill in the column decision for --decisions")
 
 
-def show_progress(options: GroundingOptions, *steps: str) -> AbstractContextManager[None]:
+def show_progress(options: GroundingOptions, *steps: str, is_wanted: bool = True) -> AbstractContextManager[None]:
     """Return a context that shows a bar of steps; none for a language model, which has a line of its own."""
     from usd2kg.grounding import is_llm_name  # noqa: PLC0415 - slow to import
     from usd2kg.progress import show_steps  # noqa: PLC0415
 
-    return nullcontext() if is_llm_name(options.grounder) else show_steps(*steps)
+    return nullcontext() if is_llm_name(options.grounder) else show_steps(*steps, is_wanted=is_wanted)
 
 
 @contextmanager

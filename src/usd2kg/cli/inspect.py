@@ -63,7 +63,7 @@ def inspect_command(
     if why is not None:
         _explain(scene, why, options, is_json=json)
         return
-    with show_steps("read"):
+    with show_steps("read", is_wanted=not json):
         found = read_scene(scene, options=options)
     measured = None
     if shapes:

@@ -103,22 +103,24 @@ def write_command(
     from usd2kg.grounding.built_in_choice import stated_places  # noqa: PLC0415
     from usd2kg.labels import label_stage, read_prim_classes  # noqa: PLC0415 - loads OpenUSD, too slow for --help
     from usd2kg.pipeline import open_tbox  # noqa: PLC0415
+    from usd2kg.progress import show_steps  # noqa: PLC0415
 
     target = output or Path(f"{stem_of(scene)}.labels.usda")
     check_writable(target)
     check_apart([target], [scene, run, ontology])
-    tbox = open_tbox(ontology, stated=stated_places(run))
-    options = _label_options(encoding, mode, bare, de_instance, {"ontology": tbox.ontology_iri, "run": run.name})
-    report = label_stage(
-        scene,
-        read_prim_classes(run, tbox),
-        tbox,
-        target,
-        options=options,
-        style=names,
-        has_ancestors=ancestors,
-        min_confidence=at_least,
-    )
+    with show_steps("ontology", "parse", "label", is_wanted=not json):
+        tbox = open_tbox(ontology, stated=stated_places(run))
+        options = _label_options(encoding, mode, bare, de_instance, {"ontology": tbox.ontology_iri, "run": run.name})
+        report = label_stage(
+            scene,
+            read_prim_classes(run, tbox),
+            tbox,
+            target,
+            options=options,
+            style=names,
+            has_ancestors=ancestors,
+            min_confidence=at_least,
+        )
     if json:
         print_json(
             {
@@ -186,10 +188,13 @@ def lint_command(
     from usd2kg.labels import lint_stage, read_prim_classes  # noqa: PLC0415 - loads OpenUSD, too slow for --help
     from usd2kg.ontology import PLACES_IRI  # noqa: PLC0415
     from usd2kg.pipeline import open_tbox  # noqa: PLC0415
+    from usd2kg.progress import show_steps  # noqa: PLC0415
 
-    # The built-in TBox of places has the classes of both.
-    tbox = open_tbox(ontology, stated=(PLACES_IRI,))
-    lint = lint_stage(scene, tbox, read_prim_classes(run, tbox) if run is not None else None, reading.read_options())
+    with show_steps("ontology", "parse", "lint", is_wanted=not json):
+        # The built-in TBox of places has the classes of both.
+        tbox = open_tbox(ontology, stated=(PLACES_IRI,))
+        classes = read_prim_classes(run, tbox) if run is not None else None
+        lint = lint_stage(scene, tbox, classes, reading.read_options())
     if json:
         findings = [asdict(finding) for finding in lint.findings]
         print_json({"scene": str(scene), "prims": lint.prims, "counts": lint.counts(), "findings": findings})

@@ -259,9 +259,11 @@ def shapes_command(
 
 def _load(file: Path | None, roots: list[str] | None) -> "TBox":
     from usd2kg.ontology import load_home_tbox, load_tbox  # noqa: PLC0415 - loads the OWL parser
+    from usd2kg.progress import show_steps  # noqa: PLC0415
 
     root_iris = roots or None
-    tbox = load_tbox(file, roots=root_iris) if file is not None else load_home_tbox(roots=root_iris)
+    with show_steps("ontology"):
+        tbox = load_tbox(file, roots=root_iris) if file is not None else load_home_tbox(roots=root_iris)
     notify_notes(tbox)
     notify(f"{tbox.source}: {len(tbox.classes)} classes in scope, {len(tbox.roots)} roots")
     return tbox

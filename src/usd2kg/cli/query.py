@@ -10,6 +10,7 @@ from usd2kg.cli.options.stores import OptionalGraphSource, SceneName
 from usd2kg.cli.output import count_noun, emit, notify, print_json
 from usd2kg.cli.text_table import format_table
 from usd2kg.errors import GraphError
+from usd2kg.tracing import span
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -47,6 +48,7 @@ def query_command(
     json: JsonOutput = False,
 ) -> None:
     """Query a graph by a question in words, a predefined question, or SPARQL."""
+    from usd2kg.progress import show_steps  # noqa: PLC0415
     from usd2kg.query.dataset import with_prefixes  # noqa: PLC0415
     from usd2kg.stores import is_store, open_store, select_graphs  # noqa: PLC0415
 
@@ -60,17 +62,19 @@ def query_command(
         )
     if given and question is None:
         raise GraphError("query: --with sets a parameter of --question; expected --question ID with it")
-    if sparql is not None and is_store(graph):
-        # A server evaluates the query itself; its graphs may exceed the memory here.
-        store = open_store(graph)
-        answer = store.query(read_sparql(sparql), select_graphs(store, scene))
-    elif sparql is not None:
-        answer = _run_sparql(graph, scene, read_sparql(sparql))
-    elif question is not None:
-        values = dict(map(_parse_parameter, given or []))
-        answer = ask_scenes(graph, scene, lambda store: store.answer(question, values))
-    else:
-        answer = ask_scenes(graph, scene, lambda store: store.ask(words or []))
+    with show_steps("parse", "answer", is_wanted=not json):
+        if sparql is not None and is_store(graph):
+            # A server evaluates the query itself; its graphs may exceed the memory here.
+            store = open_store(graph)
+            with span("answer"):
+                answer = store.query(read_sparql(sparql), select_graphs(store, scene))
+        elif sparql is not None:
+            answer = _run_sparql(graph, scene, read_sparql(sparql))
+        elif question is not None:
+            values = dict(map(_parse_parameter, given or []))
+            answer = ask_scenes(graph, scene, lambda store: store.answer(question, values))
+        else:
+            answer = ask_scenes(graph, scene, lambda store: store.ask(words or []))
     if explain:
         emit(f"{with_prefixes(answer.sparql)}\n")
     elif json:
@@ -83,7 +87,8 @@ def _run_sparql(place: str, scene: str | None, query: str) -> "Answer":
     from usd2kg.stores import view_scenes  # noqa: PLC0415
 
     (graph,) = view_scenes(place, scene).values()
-    answer = graph.sparql(query)
+    with span("answer"):
+        answer = graph.sparql(query)
     if not answer.rows:
         for hint in graph.hints(query):
             notify(f"note: {hint}")
@@ -104,11 +109,12 @@ def ask_scenes(place: str, scene: str | None, ask: "Callable[[GraphStore], Answe
     answers: dict[str, Answer] = {}
     problems: list[GraphError] = []
     graphs = view_scenes(place, scene)
-    for name, graph in graphs.items():
-        try:
-            answers[name] = ask(graph)
-        except GraphError as error:
-            problems.append(error)
+    with span("answer"):
+        for name, graph in graphs.items():
+            try:
+                answers[name] = ask(graph)
+            except GraphError as error:
+                problems.append(error)
     if not answers:
         raise problems[0]
     return next(iter(answers.values())) if len(graphs) == 1 else join_scenes(answers)

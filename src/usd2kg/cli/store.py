@@ -13,6 +13,7 @@ from usd2kg.cli.output import emit, notify, print_json
 from usd2kg.cli.query import read_sparql
 from usd2kg.cli.text_table import format_table
 from usd2kg.errors import OutputError, StoreError
+from usd2kg.tracing import span
 
 if TYPE_CHECKING:
     from usd2kg.stores import NamedGraph, SceneStore
@@ -38,7 +39,8 @@ def open_for_loading(place: str, update: str | None = None, data: str | None = N
 def load_graphs(store: "SceneStore", graphs: Sequence["NamedGraph"]) -> None:
     """Load graphs into a store, each in place of the graph with the same IRI."""
     for graph in graphs:
-        store.load(graph)
+        with span("load"):
+            store.load(graph)
         notify(f"{store.address}: loaded <{graph.iri}>, {len(graph.triples)} triples")
 
 
@@ -65,14 +67,16 @@ def load_command(
     data: DataAddress = None,
 ) -> None:
     """Load graphs into a store, each as one transaction; a graph with the same IRI is replaced."""
+    from usd2kg.progress import show_steps  # noqa: PLC0415
     from usd2kg.stores import read_named_graph  # noqa: PLC0415
 
     if scene is not None and len(graphs) > 1:
         raise StoreError(f"--scene names one graph, found {len(graphs)} files; load them one by one")
-    # All files are read before the first is loaded, so that a broken one changes nothing.
-    named = [read_named_graph(path, scene) for path in graphs]
-    check_graph_names([graph.iri for graph in named])
-    load_graphs(open_for_loading(place, update, data), named)
+    with show_steps("parse", "load"):
+        # All files are read before the first is loaded, so that a broken one changes nothing.
+        named = [read_named_graph(path, scene) for path in graphs]
+        check_graph_names([graph.iri for graph in named])
+        load_graphs(open_for_loading(place, update, data), named)
 
 
 @app.command("list")

@@ -58,10 +58,10 @@ def validate_command(
     if reasoner is not None:
         find_elk_jars(elk_jars)
     chosen = read_rules(rules)
-    store = open_graph(graph, scene)
-    closure = _open_closure(store, ontology)
-    answer = _ask_elk(store, closure, elk_jars, reasoner_limit) if reasoner is not None else None
-    with show_steps("validate"):
+    with show_steps("parse", "ontology", "validate", is_wanted=not json):
+        store = open_graph(graph, scene)
+        closure = _open_closure(store, ontology)
+        answer = _ask_elk(store, closure, elk_jars, reasoner_limit) if reasoner is not None else None
         report = validate_graph(store, closure, chosen, answer)
     for skipped in report.skipped:
         notify(f"not checked: {', '.join(skipped.rules)}: {skipped.reason}")

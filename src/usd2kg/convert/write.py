@@ -11,10 +11,12 @@ from usd2kg.convert.formats import FORMATS, LAYER_ENDINGS, find_format, refuse_o
 from usd2kg.convert.read import convert_stage
 from usd2kg.errors import OutputError, SceneError
 from usd2kg.files import check_apart, check_writable, write_whole
+from usd2kg.tracing import traced
 
 __all__ = ["convert_file"]
 
 
+@traced("convert")
 def convert_file(
     source: Path, output: Path, *, metres_per_unit: float | None = None, up_axis: str | None = None
 ) -> Converted:

@@ -14,6 +14,7 @@ from usd2kg.endpoint.listening import Address, open_socket, url_of
 from usd2kg.endpoint.open_connections import Connections
 from usd2kg.endpoint.pool import WorkerPool
 from usd2kg.errors import GraphError, OutputError
+from usd2kg.progress import show_steps
 from usd2kg.query.graph_file import load_graph
 from usd2kg.stores import EmbeddedStore
 
@@ -56,7 +57,8 @@ def serve(place: str, options: ServeOptions, report: Callable[[str], None]) -> N
         tempfile.TemporaryDirectory(prefix="usd2kg-serve-") as temporary,
         open_socket(options.address) as socket,
     ):
-        folder, tables, _keeper = _prepare(place, Path(temporary) / "store")
+        with show_steps("parse"):
+            folder, tables, _keeper = _prepare(place, Path(temporary) / "store")
         store = ox.Store.read_only(str(folder))
         connections = Connections()
         app = make_app(

@@ -17,6 +17,7 @@ from usd2kg.garbage import paused_collection
 from usd2kg.graph.vocabulary import OWL, PREFIXES, RDF
 from usd2kg.ontology.nesting import refuse_deep_nesting_in_file
 from usd2kg.ontology.xml_entities import refuse_entity_bomb_in_file
+from usd2kg.tracing import traced
 
 if TYPE_CHECKING:
     from usd2kg.graph.abox import KnowledgeGraph
@@ -130,6 +131,7 @@ def parse_errors_explained(path: Path, syntax: ox.RdfFormat) -> Iterator[None]:
         raise GraphError(f"{path}: does not parse as {syntax.name} ({reason}); build the graph again") from error
 
 
+@traced("parse", lambda triples: {"triples": len(triples)})
 def read_statements(path: Path) -> tuple[ox.Triple, ...]:
     """Return the statements of all named graphs in a file, in its order, each once.
 
@@ -163,6 +165,7 @@ def _open_binary(path: Path) -> BinaryIO:
     return cast("BinaryIO", gzip.open(path)) if path.suffix.lower() == ".gz" else path.open("rb")
 
 
+@traced("parse", lambda document: {"triples": len(document.triples)})
 def read_document(path: Path) -> GraphDocument:
     """Return the contents of an RDF file in file order.
 

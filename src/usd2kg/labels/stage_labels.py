@@ -13,12 +13,14 @@ from usd2kg.labels.model import ClassLabel, LabelOptions, LabelOutcome, LabelRep
 from usd2kg.labels.prim_classes import PrimClass, PrimClasses
 from usd2kg.ontology import ClassIRI, TBox
 from usd2kg.scene.session_layer import add_to_session, remove_from_session
+from usd2kg.tracing import traced
 
 __all__ = ["label_session", "label_stage", "remove_session_labels"]
 
 _CONTENT = "labels"
 
 
+@traced("label", lambda report: {"prims": len(report.outcomes)})
 def label_stage(
     scene: Path | Usd.Stage,
     classes: PrimClasses,

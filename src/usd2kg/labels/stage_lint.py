@@ -12,6 +12,7 @@ from usd2kg.labels.survey import LabelledPrim, LabelSurvey, survey_labels
 from usd2kg.ontology import ClassIRI, TBox, compact_iri, local_name, read_closure
 from usd2kg.scene import Label, ReadOptions, class_words
 from usd2kg.scene.label_lint import LabelProblem
+from usd2kg.tracing import traced
 from usd2kg.validation import Finding, Severity
 from usd2kg.validation.finding import sort_findings
 
@@ -54,6 +55,7 @@ class LabelLint:
         return {severity.value: counted[severity.value] for severity in Severity}
 
 
+@traced("lint", lambda lint: {"findings": len(lint.findings)})
 def lint_stage(
     scene: Path | str, tbox: TBox, grounded: PrimClasses | None = None, options: ReadOptions | None = None
 ) -> LabelLint:

@@ -8,10 +8,12 @@ from usd2kg.graph.rdf_document import check_graph_file, open_rdf, parse_errors_e
 from usd2kg.query.dataset import Dataset
 from usd2kg.query.graph_cache import open_cached
 from usd2kg.query.graph_store import GraphStore
+from usd2kg.tracing import traced
 
 __all__ = ["load_graph"]
 
 
+@traced("parse")
 def load_graph(path: Path | str, *, is_indexed: bool = False) -> GraphStore:
     """Return the graph in a file.
 

@@ -15,6 +15,7 @@ from usd2kg.stores.named_graph import NamedGraph
 from usd2kg.stores.named_graphs import StoredGraph, choose_graph
 from usd2kg.stores.remote import RemoteStore
 from usd2kg.stores.server_addresses import read_credentials
+from usd2kg.tracing import span
 
 __all__ = ["SceneStore", "is_store", "open_graph", "open_store", "select_graphs", "view_scenes"]
 
@@ -111,7 +112,11 @@ def view_scenes(place: str, scene: str | None = None) -> dict[str, GraphStore]:
     if not is_store(place):
         _refuse_scene(place, scene)
         return {Path(place).name: load_graph(place, is_indexed=True)}
-    store = open_store(place)
+    with span("parse"):
+        return _view_scenes(open_store(place), scene)
+
+
+def _view_scenes(store: SceneStore, scene: str | None) -> dict[str, GraphStore]:
     chosen = set(select_graphs(store, scene))
     graphs = [graph for graph in store.graphs() if graph.iri in chosen]
     shared = [graph.iri for graph in graphs if not graph.is_scene]
@@ -132,7 +137,8 @@ def open_graph(place: str, scene: str | None = None) -> GraphStore:
     """
     if is_store(place):
         store = open_store(place)
-        return store.fetch(select_graphs(store, scene))
+        with span("parse"):
+            return store.fetch(select_graphs(store, scene))
     _refuse_scene(place, scene)
     return load_graph(place)
 

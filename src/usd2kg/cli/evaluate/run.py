@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Annotated
 
 from typer import Option
 
-from usd2kg.cli.grounder_session import open_grounder_session
+from usd2kg.cli.grounder_session import open_grounder_session, show_progress
 from usd2kg.cli.options.bundles import check_files, expand_bundles
 from usd2kg.cli.options.common import JsonOutput, OntologyFile, SceneFile
 from usd2kg.cli.options.grounding import AbbreviatedLength, GroundingOptions
@@ -52,7 +52,10 @@ def run_command(
     found = read_scene(scene, paths=[label.prim_path for label in labels])
     if len(found.missing_paths) == len(labels):
         raise EvaluationError(f"{gold}: none of its {len(labels)} paths is in {scene}; expected the gold of this scene")
-    with open_grounder_session(grounding, found, tbox, scene, ReadOptions()) as session:
+    with (
+        show_progress(grounding, "ground", is_wanted=not json),
+        open_grounder_session(grounding, found, tbox, scene, ReadOptions()) as session,
+    ):
         result = evaluation.evaluate(
             found,
             labels,
