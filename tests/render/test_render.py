@@ -202,6 +202,40 @@ def test_transparent_meshes_are_blended_over_solid_ones():
 # cutaway
 
 
+def table(at=(0, 0), size=(1.2, 0.8, 0.75)):
+    (x, y), (width, depth, height) = at, size
+    legs = [(x + sx * width * 0.45, y + sy * depth * 0.45, height / 2) for sx in (-1, 1) for sy in (-1, 1)]
+    return [box((x, y, height - 0.02), (width, depth, 0.04)), *(box(leg, (0.05, 0.05, height - 0.04)) for leg in legs)]
+
+
+LAMP = [box((1.4, 1.2, 0.9), (0.04, 0.04, 1.8)), box((1.4, 1.2, 1.85), (0.4, 0.4, 0.3))]
+SHELF = [
+    *(box((x, 1.3, 1), (0.03, 0.3, 2)) for x in (-1.2, -0.4)),
+    *(box((-0.8, 1.3, z), (0.8, 0.3, 0.03)) for z in (0.1, 0.6, 1.1, 1.6, 1.985)),
+]
+SOFA = [box((0, -0.8, 0.25), (1.8, 0.8, 0.4)), box((0, -1.15, 0.6), (1.8, 0.15, 0.5))]
+
+
+@pytest.mark.parametrize(
+    "meshes",
+    [table(), SHELF, [*LAMP, *SHELF, *SOFA, *table()], [box((0, 0, 0), (3.4, 3.2, 0.01)), *LAMP, *SHELF, *SOFA]],
+    ids=["a table", "a shelf", "furniture", "furniture on a rug"],
+)
+@pytest.mark.parametrize("azimuth", [-125, -35, 55, 145])
+def test_without_walls_nothing_is_cut(meshes, azimuth):
+    soup = gather(meshes)
+    assert len(open_room(soup, azimuth).triangles) == len(soup.triangles)
+
+
+def test_furniture_in_a_room_is_seen_over_the_near_walls():
+    walls = [box((x, 0, 1.25), (0.1, 3.2, 2.5)) for x in (-1.75, 1.75)]
+    walls += [box((0, y, 1.25), (3.4, 0.1, 2.5)) for y in (-1.55, 1.55)]
+    soup = gather([*walls, *LAMP, *SOFA, *table(), box((0, 0, 2.55), (3.4, 3.2, 0.1))])
+    kept = set(open_room(soup, -35).mesh.tolist())
+    # The walls at +x and -y and the ceiling are gone.
+    assert set(range(soup.mesh[-1] + 1)) - kept == {1, 2, int(soup.mesh[-1])}
+
+
 def test_near_walls_and_ceiling_are_removed():
     room = [
         box(at=(0, 0, -0.05), size=(4, 4, 0.1)),

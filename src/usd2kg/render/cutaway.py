@@ -44,13 +44,16 @@ def without_ground(soup: TriangleSoup) -> TriangleSoup:
 def open_room(soup: TriangleSoup, azimuth: float, kept_meshes: int = 0) -> TriangleSoup:
     """Return the triangles without the ceiling and without the walls towards `azimuth` and objects on them.
 
-    The first `kept_meshes` meshes are always kept.
+    All triangles of what is no room: nothing hides a lamp, a table or a shelf that stands without walls. The first
+    `kept_meshes` meshes are always kept.
     """
     low, high = _mesh_boxes(soup)
     size = high - low
     built = without_ground(soup).used_points().astype(np.float64)
     floor, top = built.min(axis=0), built.max(axis=0)
     span = np.maximum(top - floor, 1e-9)
+    if not _is_room(low, high, floor, top):
+        return soup
     corners = soup.points[soup.triangles].astype(np.float64)
     z0, z1, z2 = corners[..., 2].T
     bottom = np.minimum(np.minimum(z0, z1), z2)
@@ -78,6 +81,32 @@ def open_room(soup: TriangleSoup, azimuth: float, kept_meshes: int = 0) -> Trian
         is_out |= is_shell[soup.mesh] & is_front
     kept = ~is_out | (soup.mesh < kept_meshes)
     return soup.part(kept) if kept.any() else soup
+
+
+def _is_room(low: Array, high: Array, floor: Array, top: Array) -> bool:
+    """Return whether a scene is as large as a room and has a wall, a ceiling or both in one mesh.
+
+    Args:
+        low: (k, 3), metres, lower corners of the meshes.
+        high: (k, 3), metres, upper corners of the meshes.
+        floor: (3,), metres, lower corner of the scene without its ground.
+        top: (3,), metres, upper corner of the scene without its ground.
+    """
+    rules, size, span = CUTAWAY, high - low, top - floor
+    if (span[:2] < rules.room_width).any() or span[2] < rules.room_height:
+        return False
+    is_wide = (size[:, :2] > rules.wide_share * span[:2]).all(axis=1)
+    # A ceiling, a roof, or a room shell.
+    if (is_wide & (high[:, 2] > floor[2] + rules.ceiling_height * span[2])).any():
+        return True
+    is_tall = size[:, 2] > rules.tall_share * span[2]
+    for axis in (0, 1):
+        is_thin = size[:, axis] < rules.wall_thickness * span.max()
+        margin = rules.wall_distance * span[axis]
+        is_at_edge = (high[:, axis] - floor[axis] < margin) | (top[axis] - low[:, axis] < margin)
+        if (is_tall & is_thin & is_at_edge & (size[:, 1 - axis] > rules.wide_share * span[1 - axis])).any():
+            return True
+    return False
 
 
 def _steepness(corners: Array) -> Array:

@@ -87,6 +87,8 @@ class CutawaySettings:
     shell_share: float
     shell_depth: float
     shell_rise: float
+    room_width: float
+    room_height: float
 
 
 @dataclass(frozen=True)
