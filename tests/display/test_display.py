@@ -11,7 +11,7 @@ from IPython.core.formatters import DisplayFormatter
 import usd2kg
 from tests.scene.usda import METRES, box
 from usd2kg.assistant import InterpretedAnswer
-from usd2kg.display import html, make_view, to_html, to_text
+from usd2kg.display import make_view, pictures, to_html, to_text
 from usd2kg.render import draw_thumbnail, thumbnail
 from usd2kg.world import World
 
@@ -57,7 +57,7 @@ class Reader(HTMLParser):
 
 @pytest.fixture(autouse=True)
 def _without_cache():
-    html._pictures.clear()
+    pictures._pictures.clear()
 
 
 @pytest.fixture
@@ -84,10 +84,11 @@ def test_a_build_result_shows_the_same_objects(world):
     assert sorted(rows) == sorted(Reader(world._repr_html_()).rows)
 
 
-def test_a_loaded_graph_has_no_picture(world, tmp_path):
+def test_a_loaded_graph_shows_boxes(world, tmp_path):
     world.save(tmp_path / "kitchen.ttl")
     page = Reader(usd2kg.open(tmp_path / "kitchen.ttl")._repr_html_())
-    assert page.pictures() == []
+    assert page.pictures() == Reader(world.graph._repr_html_()).pictures()
+    assert "■ cup 1 · ■ table 1" in page.text
     assert page.rows == Reader(world._repr_html_()).rows
     assert "kitchen.ttl: 2 objects, " in page.text
 
@@ -100,8 +101,12 @@ def test_scene_grounding_and_graph(world):
     grounding = Reader(world.grounding._repr_html_())
     assert "2 predictions by lexical" in grounding.text
     assert grounding.rows[2][:2] == ["Cup", "cup"]
+    assert grounding.pictures() == scene.pictures()
     graph = Reader(world.graph._repr_html_())
     assert ["Cup", "1", "http://www.ease-crc.org/ont/SOMA.owl#Cup"] in graph.rows
+    (boxes,) = graph.pictures()
+    assert struct.unpack(">II", boxes[16:24]) == (280, 210)
+    assert boxes != scene.pictures()[0]
     assert f"{len(world.graph.triples)} triples" in graph.text
 
 
@@ -140,7 +145,7 @@ def test_names_of_a_stage_are_escaped(write_stage):
     answers = [world.sparql("SELECT ?l ?o { ?o u2k:primPath ?p ; rdfs:label ?l }"), world.ask("list all objects")]
     for record in (world, world.built, world.scene, world.grounding, world.graph, *answers):
         page = Reader(record._repr_html_())
-        assert {tag for tag, _ in page.elements} <= {"div", "p", "b", "img", "table", "tr", "td", "th"}
+        assert {tag for tag, _ in page.elements} <= {"div", "p", "b", "img", "table", "tr", "td", "th", "span"}
         assert not any("onerror" in attributes for _, attributes in page.elements)
         page.pictures()
         assert "\u202e" not in page.text
@@ -164,7 +169,7 @@ def test_ipython_shows_html_and_text_but_not_the_repr(world):
 
 
 def test_ipython_on_a_terminal_draws_nothing(world, monkeypatch):
-    monkeypatch.setattr(html, "draw_thumbnail", lambda *_: pytest.fail("drawn"))
+    monkeypatch.setattr(pictures, "draw_thumbnail", lambda *_: pytest.fail("drawn"))
     formatter = DisplayFormatter()
     formatter.active_types = ["text/plain"]
     assert formatter.format(world)[0] == {"text/plain": to_text(world)}
@@ -190,25 +195,25 @@ def test_the_picture_is_drawn_once(world, monkeypatch):
         drawn.append(scene.source)
         return b"png"
 
-    monkeypatch.setattr(html, "draw_thumbnail", draw)
+    monkeypatch.setattr(pictures, "draw_thumbnail", draw)
     assert to_html(world) == to_html(world)
     to_html(world.scene)
     assert drawn == [world.source]
 
 
 def test_few_pictures_are_kept(write_stage, monkeypatch):
-    monkeypatch.setattr(html, "draw_thumbnail", lambda scene, size: b"png")
-    monkeypatch.setattr(html, "_MAX_KEPT", 2)
+    monkeypatch.setattr(pictures, "draw_thumbnail", lambda scene, size: b"png")
+    monkeypatch.setattr(pictures, "_MAX_KEPT", 2)
     for number in range(4):
         to_html(usd2kg.read_scene(write_stage(ROOM, f"{number}.usda")))
-    assert [Path(key[0]).name for key in html._pictures] == ["2.usda", "3.usda"]
+    assert [Path(key[0]).name for key in pictures._pictures] == ["2.usda", "3.usda"]
 
 
 def test_a_failure_to_draw_leaves_the_picture_out(world, monkeypatch, caplog):
     def fail(*_: object) -> bytes:
         raise RuntimeError("broken mesh")
 
-    monkeypatch.setattr(html, "draw_thumbnail", fail)
+    monkeypatch.setattr(pictures, "draw_thumbnail", fail)
     caplog.set_level("INFO", "usd2kg")
     page = Reader(world._repr_html_())
     assert page.pictures() == []
@@ -236,3 +241,44 @@ def test_a_stage_that_is_gone_is_not_drawn(world):
 def test_a_scene_without_geometry_is_not_drawn(write_stage):
     scene = usd2kg.read_scene(write_stage('def Xform "lamp" (kind = "component") {}'), paths=["/lamp"])
     assert draw_thumbnail(scene, (40, 30)) is None
+
+
+def test_a_grounding_shows_its_stage_alone(world, monkeypatch):
+    (picture,) = Reader(world.grounding._repr_html_()).pictures()
+    assert [*pictures._pictures] == [(world.grounding.scene, world.grounding.scene_hash)]
+    pictures._pictures.clear()
+    assert Reader(world.scene._repr_html_()).pictures() == [picture]
+    pictures._pictures.clear()
+    monkeypatch.setattr(pictures, "_MAX_PREDICTIONS", 1)
+    assert Reader(world.grounding._repr_html_()).pictures() == []
+
+
+def test_a_grounding_of_a_changed_stage_has_no_picture(world, write_stage):
+    write_stage(METRES + box("wardrobe", (0, 0, 0), (1, 1, 1)), "kitchen.usda")
+    assert Reader(world.grounding._repr_html_()).pictures() == []
+
+
+def test_a_large_graph_is_not_drawn(world, monkeypatch, tmp_path):
+    world.save(tmp_path / "g.ttl")
+    loaded = usd2kg.open(tmp_path / "g.ttl")
+    monkeypatch.setattr(pictures, "MAX_BOXES", 1)
+    for record in (world.graph, loaded):
+        page = Reader(record._repr_html_())
+        assert page.pictures() == []
+        assert "■" not in page.text
+
+
+def test_a_graph_without_boxes_is_not_drawn(write_stage):
+    path = write_stage('def Xform "lamp" (kind = "component") {}')
+    graph = usd2kg.build(path, paths=["/lamp"]).graph
+    assert Reader(graph._repr_html_()).pictures() == []
+
+
+def test_labels_of_a_legend_are_escaped(world, monkeypatch):
+    picture = pictures.Picture(b"png", HOSTILE, (("#ff0000", HOSTILE + "\u202e", 3),))
+    monkeypatch.setattr("usd2kg.display.html.draw_picture", lambda _: picture)
+    text = world.graph._repr_html_()
+    page = Reader(text)
+    assert [attributes["alt"] for tag, attributes in page.elements if tag == "img"] == [HOSTILE]
+    assert f"■ {HOSTILE}\ufffd 3" in page.text
+    assert HOSTILE not in text

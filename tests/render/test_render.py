@@ -16,7 +16,7 @@ from tests.scene.usda import METRES, component, cube, header, move, ops, prim, x
 from usd2kg.cli.render import render_command
 from usd2kg.demo import demo_scene
 from usd2kg.errors import OutputError, SceneError
-from usd2kg.render import Renderer, render_object, render_objects, render_scene
+from usd2kg.render import ColoredBox, Renderer, draw_boxes, render_object, render_objects, render_scene
 from usd2kg.render.camera import aim
 from usd2kg.render.cutaway import open_room, without_ground, without_strays
 from usd2kg.render.png import encode_png
@@ -473,3 +473,31 @@ def test_pictures_of_the_demo_kitchen():
     assert is_reddish(toaster).mean() > 0.15
     fork = renderer.render_object("/KitchenDining/counterRun/cakeFork_1", in_context=True)
     assert is_reddish(decoded(fork)).sum() > 50
+
+
+# boxes
+
+
+def colored(at, size=(1, 1, 1), color=(0.6, 0.02, 0.02)):
+    return ColoredBox(np.array(at) - np.array(size) / 2, np.array(at) + np.array(size) / 2, color)
+
+
+def test_boxes_are_drawn_in_their_colours():
+    picture = decoded(draw_boxes([colored((0, 0, 0)), colored((3, 0, 0), color=(0.02, 0.02, 0.6))], (60, 40)))
+    assert picture.shape == (40, 60, 3)
+    bluish = picture[..., 2].astype(int) > picture[..., 0] + 40
+    assert is_reddish(picture).sum() > 50
+    assert bluish.sum() > 50
+
+
+def test_a_box_around_most_others_is_left_out():
+    inside = [colored((x, 0, 0)) for x in (-2, 0, 2)]
+    room = colored((0, 0, 0), (8, 4, 3), (0.02, 0.02, 0.6))
+    assert draw_boxes([*inside, room], (60, 40)) == draw_boxes(inside, (60, 40))
+    # A bowl with one of three objects in it is drawn.
+    bowl = colored((2, 0, 0), (1.2, 1.2, 1.2))
+    assert draw_boxes([*inside, bowl], (60, 40)) != draw_boxes(inside, (60, 40))
+
+
+def test_no_boxes_have_no_picture():
+    assert draw_boxes([], (60, 40)) is None

@@ -9,6 +9,7 @@ from pathlib import Path
 
 from usd2kg.assistant import InterpretedAnswer
 from usd2kg.display.cells import clean_line, size_text
+from usd2kg.display.pictures import Pictured
 from usd2kg.graph import KnowledgeGraph
 from usd2kg.grounding import Grounding
 from usd2kg.ontology.model import local_name
@@ -40,8 +41,8 @@ class View:
     """Number of rows of the whole table."""
     notes: tuple[str, ...] = ()
     """Lines below the title."""
-    pictured: Scene | None = None
-    """The scene to draw; None for no picture."""
+    pictured: Pictured | None = None
+    """What to draw; None for no picture."""
 
     @property
     def lines(self) -> tuple[str, ...]:
@@ -97,6 +98,7 @@ def _(grounding: Grounding) -> View:
         _first(rows),
         len(predictions),
         (_counts(p.status.value for p in predictions),),
+        grounding,
     )
 
 
@@ -112,6 +114,7 @@ def _(graph: KnowledgeGraph) -> View:
         _first((local_name(iri), count, iri) for iri, count in counts),
         len(counts),
         tuple(notes),
+        graph,
     )
 
 
@@ -149,7 +152,7 @@ def _(world: World) -> View:
         ),
         len(world.store.facts.things),
         () if world.built is None else (f"relations: {_relation_counts(world.built.graph)}",),
-        world.scene,
+        world.store if world.scene is None else world.scene,
     )
 
 
