@@ -1,10 +1,11 @@
 """Ready questions for robot tasks: parameterised SPARQL, one file each.
 
-A file begins with comments: `# id:`, `# question:` with the parameters in braces, `# parameter: NAME | KIND | DEFAULT`
-for each parameter, `# candidates: DISTANCE | FROM` if only objects within a distance of an object or position can be an
-answer, and `# note:`. A kind is `object`, `class`, `position`, or the unit of a number: `m`, `kg` or
-`share`. In the query, the parameter is the variable `?the_NAME`, outside SELECT. Values are bound as terms in SPARQL's
-syntax, never inserted as text.
+A file begins with comments: `# id:`, `# question:` with the parameters in braces, `# parameter: NAME | KIND |
+DEFAULT` for each parameter, `# candidates: DISTANCE | FROM` if only objects within a distance of an object or
+position can be an answer, `# example: PATTERN`, and `# note:`. A kind is `object`, `class`, `position`, or the unit
+of a number: `m`, `kg` or `share`. In the query, the parameter is the variable `?the_NAME`, outside SELECT. Values are
+bound as terms in SPARQL's syntax, never inserted as text. The `?o` of the pattern is an object to ask about, the
+better the more `?x` it has; a graph without a match has no example of the question.
 """
 
 import math
@@ -64,6 +65,9 @@ class Question:
     candidates: tuple[str, str] | None = None
     """Names of the parameters that limit the answer: all objects `?o` are within this distance of this object or
     position. None if other objects can be an answer."""
+    example: str = ""
+    """SPARQL pattern that a graph has to match for an example of the question; its `?o` is the object to ask about.
+    Empty if any object will do."""
 
     def bind(
         self,
@@ -142,14 +146,15 @@ def parse_number(text: str, unit: str) -> float:
 def _parse(text: str) -> Question:
     head: dict[str, list[str]] = {}
     for line in text.splitlines():
-        found = re.fullmatch(r"# (id|question|parameter|candidates|note): (.+)", line)
+        found = re.fullmatch(r"# (id|question|parameter|candidates|example|note): (.+)", line)
         if found:
             head.setdefault(found.group(1), []).append(found.group(2))
     parameters = tuple(_parse_parameter(line) for line in head.get("parameter", ()))
     distance, _, origin = "".join(head.get("candidates", ())).partition(" | ")
     candidates = (distance, origin) if origin else None
     query = "\n".join(line for line in text.splitlines() if not line.startswith("# "))
-    return Question(head["id"][0], head["question"][0], parameters, " ".join(head.get("note", ())), query, candidates)
+    note, example = (" ".join(head.get(key, ())) for key in ("note", "example"))
+    return Question(head["id"][0], head["question"][0], parameters, note, query, candidates, example)
 
 
 def _parse_parameter(line: str) -> Parameter:
