@@ -141,3 +141,10 @@ def test_labels_a_house_by_its_grounding(run: Run):
     assert labelled["/default/BalconyTable_01_001"] == ["DesignedArtifact", "DesignedFurniture", "Table"]
     assert f"{len(labelled)} written" in done.err
     assert run("label", "lint", "house.usda", "--run", "house.csv").code == 0
+
+
+def test_a_room_group_is_no_prim_without_a_class(run: Run, room: Path, graph: Path):
+    group = '<https://example.org/room/Room> a u2k:RoomGroup ; u2k:primPath "/Room" .\n'
+    graph.write_text(graph.read_text("utf-8") + group, "utf-8")
+    done = run("label", room, graph, "-o", "x.usda")
+    assert done.err.splitlines() == ["4 prims: 4 written", "written to x.usda"]

@@ -411,3 +411,47 @@ class TestAlignment:
         done = run("ontology", "align", lab, "--budget", "1")
         assert (done.code, done.out) == (2, "")
         assert done.err == "usd2kg: --budget needs a language model; name one with --model MODEL\n"
+
+
+REFUSED = "the model completed none of 2 prompts (model "
+
+
+def test_ground_fails_if_all_prompts_fail_and_keeps_the_mapping(run: Run, kitchen: Path):
+    with serve(refuse(401, "bad key")) as server:
+        done = run("ground", kitchen, "--grounder", f"llm-B:openai:x@{server.url}/v1", "-o", "m.csv")
+    assert done.code == 2
+    last = done.err.splitlines()[-1]
+    assert last.startswith(f"usd2kg: llm-B:openai:x@{server.url}/v1: {REFUSED}"), last
+    assert "status 401" in last
+    assert last.endswith("the classes that were written are without it")
+    assert set(classes(Path("m.csv").read_text()).values()) == {""}
+
+
+def test_build_fails_if_all_prompts_fail_and_keeps_the_graph(run: Run, kitchen: Path):
+    with serve(refuse(401, "bad key")) as server:
+        grounder = f"llm-B:openai:x@{server.url}/v1"
+        done = run("build", kitchen, "--grounder", grounder, "-o", "g.ttl")
+        many = run("build", kitchen, kitchen.parent / "none.usda", "--grounder", grounder, "-o", "out", "--json")
+        cascade = run("build", kitchen, "--grounder", grounder, "--cascade", "1", "-o", "c.ttl")
+    for one in (done, many, cascade):
+        assert one.code == 2
+        assert "status 401" in one.err
+    assert done.err.splitlines()[-1].startswith(f"usd2kg: {grounder}: {REFUSED}")
+    assert Path("g.ttl").read_text().count("primPath") > 2
+    assert Path("out/scene.ttl").is_file()
+    # The lexical grounder's classes remain.
+    assert "Cup" in Path("c.ttl").read_text()
+
+
+def test_batch_reports_a_scene_whose_prompts_all_failed(run: Run, kitchen: Path):
+    with serve(refuse(401, "bad key")) as server:
+        done = run("batch", kitchen, "-o", "out", "--workers", "1", "--grounder", f"llm-B:openai:x@{server.url}/v1")
+    assert done.code == 1
+    assert "the model completed none of 2 prompts" in done.err
+
+
+def test_one_completion_is_enough(run: Run, kitchen: Path):
+    with serve(openai_reply(cup()), refuse(401, "bad key")) as server:
+        done = run("ground", kitchen, "--grounder", f"llm-B:openai:x@{server.url}/v1", "--concurrency", "1")
+    assert done.code == 0
+    assert "1 prompts failed" in done.err

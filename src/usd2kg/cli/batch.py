@@ -58,7 +58,7 @@ class _BuildTask:
         from usd2kg.ontology import read_closure  # noqa: PLC0415
 
         start = time.perf_counter()
-        with self.steps.run(job.source, tbox, job.base) as (result, _):
+        with self.steps.run(job.source, tbox, job.base) as (result, session):
             graph = result.graph
             if self.merges_imports:
                 graph = merge_imports(graph, read_closure(result.tbox, graph.imports))
@@ -67,6 +67,7 @@ class _BuildTask:
             except OSError as error:
                 raise OutputError(f"{job.target.parent}: cannot be made ({error.strerror})") from error
             write_graph(graph, job.target)
+            session.check_completions()
         summary = summarize_build(result, "", time.perf_counter() - start)
         return {key: summary[key] for key in _SUMMARY}
 

@@ -43,7 +43,11 @@ class GrounderSession:
         return [undecided[index] for index in self.cascade.find_uncertain(self.offline.ground_views(undecided, tbox))]
 
     def report(self, grounding: "Grounding", tbox: "TBox") -> None:
-        """Print to stderr what each tier decided and cost, and write the review queue."""
+        """Print to stderr what each tier decided and cost, and write the review queue.
+
+        Raises:
+            GroundingError: see `check_completions`; all else is printed and written before.
+        """
         from usd2kg.cli.model_report import report_cost, report_tiers  # noqa: PLC0415
         from usd2kg.grounding import find_uncertain, format_queue  # noqa: PLC0415
 
@@ -55,6 +59,22 @@ class GrounderSession:
             waiting = find_uncertain(grounding, self.options.review.person)
             emit(format_queue(waiting, tbox), queue)
             notify(f"{len(waiting)} objects to review in {queue}; fill in the column decision for --decisions")
+        self.check_completions()
+
+    def check_completions(self) -> None:
+        """Check that the model completed at least one prompt of the run, if there were any.
+
+        Raises:
+            GroundingError: all prompts failed, for example because the key is refused.
+        """
+        if self.model is None:
+            return
+        report = self.model.report
+        if report.first_failure and not (report.completions or report.cached or report.is_interrupted):
+            raise GroundingError(
+                f"{self.options.grounder}: the model completed none of {report.prompts} prompts "
+                f"({report.first_failure}); the classes that were written are without it"
+            )
 
 
 def show_progress(options: GroundingOptions, *steps: str, is_wanted: bool = True) -> AbstractContextManager[None]:

@@ -151,6 +151,9 @@ def _read_graph(store: GraphStore, tbox: TBox) -> Iterator[tuple[str, PrimClass]
             message = f'{store.source}: {subject} has the prim path {path}, expected a text such as "/World/Mug"'
             raise GroundingError(message)
         types = [node for _, _, node, _ in graph.quads_for_pattern(subject, RDF.type, None, None)]
+        if U2K.RoomGroup in types:
+            # A group that is a room by its name is no object, so the run had no class to find for it.
+            continue
         iri = _most_specific([node.value for node in types if isinstance(node, ox.NamedNode)], tbox)
         # The annotations of an object without a class are on the object itself.
         values = _literals(graph, annotations.get((subject, ox.NamedNode(iri)), subject) if iri else subject)

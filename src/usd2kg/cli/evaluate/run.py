@@ -66,7 +66,6 @@ def run_command(
             decisions=session.decisions,
             abbreviated_length=abbreviated_length,
         )
-    session.report(result.grounding, tbox)
     selection = evaluation.score_scene_selection(found, labels)
     data = evaluation.evaluation_json(result, selection)
     if output is not None:
@@ -75,6 +74,7 @@ def run_command(
         print_json(data)
     else:
         emit(_evaluation_text(result, selection, tbox) + _tiers_text(result))
+    session.report(result.grounding, tbox)
 
 
 def _evaluation_text(result: "Evaluation", selection: "SelectionScore", tbox: "TBox") -> str:

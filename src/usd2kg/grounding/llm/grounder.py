@@ -13,7 +13,7 @@ from usd2kg.grounding.llm.completion import Completion, Finish
 from usd2kg.grounding.llm.degeneration import is_degenerate
 from usd2kg.grounding.llm.grouping import group_similar_views, make_shortlists
 from usd2kg.grounding.llm.limits import LIMITS
-from usd2kg.grounding.llm.metered_client import MeteredClient, RunReport
+from usd2kg.grounding.llm.metered_client import MeteredClient, NotAskedError, RunReport
 from usd2kg.grounding.llm.prompt_options import PromptOptions, Strategy
 from usd2kg.grounding.llm.prompts import Batch, Example, build_requests
 from usd2kg.grounding.llm.voting import ScoredAnswer, vote
@@ -167,6 +167,8 @@ class LLMGrounder:
         except GroundingError as error:
             with self._client.lock:
                 self.report.failed += 1
+                if not isinstance(error, NotAskedError):
+                    self.report.first_failure = self.report.first_failure or str(error)
             return [ParsedAnswer(None, Status.FAILED, "", str(error)) for _ in batch.indices]
         answers = self._read(completion, batch, tbox)
         if any(answer.status is Status.UNREADABLE for answer in answers):

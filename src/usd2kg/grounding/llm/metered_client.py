@@ -11,7 +11,7 @@ from usd2kg.grounding.llm.limits import LIMITS
 from usd2kg.grounding.llm.prices import Tariff, format_price
 from usd2kg.grounding.llm.traffic import Traffic
 
-__all__ = ["Budget", "MeteredClient", "RunReport"]
+__all__ = ["Budget", "MeteredClient", "NotAskedError", "RunReport"]
 
 
 @dataclass(slots=True)
@@ -30,6 +30,8 @@ class RunReport:
     """Completions that are empty, repeat themselves or were truncated."""
     failed: int = 0
     """Prompts without a completion."""
+    first_failure: str = ""
+    """Why the model failed on the first of them; empty if it failed on none of those that it was asked."""
     usage: Usage = field(default_factory=Usage)
     """Tokens of the completions received from the model."""
     price: Decimal | None = None
@@ -52,6 +54,10 @@ class Budget:
     """Input and output tokens; None for no limit."""
     dollars: Decimal | None = None
     """US dollars; None for no limit."""
+
+
+class NotAskedError(GroundingError):
+    """A prompt was not sent: the budget is spent, or too many prompts failed in a row."""
 
 
 class MeteredClient:
@@ -133,10 +139,10 @@ class MeteredClient:
             spent, failures = self.report.price, self._consecutive_failures
         tokens, dollars = self._budget.tokens, self._budget.dollars
         if tokens is not None and used >= tokens:
-            raise GroundingError(f"not asked: {used} tokens are used of a budget of {tokens}; raise --token-budget")
+            raise NotAskedError(f"not asked: {used} tokens are used of a budget of {tokens}; raise --token-budget")
         if dollars is not None and spent is not None and spent >= dollars:
-            raise GroundingError(
+            raise NotAskedError(
                 f"not asked: {format_price(spent)} are spent of a budget of {format_price(dollars)}; raise --budget"
             )
         if failures >= LIMITS.max_consecutive_failures:
-            raise GroundingError(f"not asked: {failures} prompts in a row failed; see the first of them")
+            raise NotAskedError(f"not asked: {failures} prompts in a row failed; see the first of them")
