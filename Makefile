@@ -67,10 +67,11 @@ build/supply/bin/cyclonedx-py: requirements/supply.txt
 	$(PYTHON) -m venv build/supply
 	build/supply/bin/python -m pip install --quiet --require-hashes --no-deps --requirement requirements/supply.txt
 
-sbom: build/supply/bin/cyclonedx-py ## Write the bill of materials of the wheel's dependencies (CycloneDX) into dist
-	@mkdir -p dist
-	build/supply/bin/cyclonedx-py requirements requirements/run.txt --pyproject pyproject.toml --mc-type library \
-	  --output-reproducible --output-format JSON --output-file dist/usd2kg.cdx.json
+sbom: build/supply/bin/cyclonedx-py ## Write the bill of materials (CycloneDX) of dependencies, extras and pages into dist
+	@mkdir -p dist build/sbom
+	for part in run extras; do build/supply/bin/cyclonedx-py requirements requirements/$$part.txt --pyproject pyproject.toml \
+	  --mc-type library --output-reproducible --output-format JSON --output-file build/sbom/$$part.json || exit 1; done
+	$(PYTHON) -m tools.merge_sbom build/sbom/run.json build/sbom/extras.json web/package-lock.json dist/usd2kg.cdx.json
 
 release-check: wheel build/supply/bin/cyclonedx-py ## Build the sdist, too, and check both for publication
 	$(BIN)/uv build --quiet --sdist --no-build-isolation --python $(BIN)/python
@@ -78,6 +79,7 @@ release-check: wheel build/supply/bin/cyclonedx-py ## Build the sdist, too, and 
 
 audit: build/supply/bin/cyclonedx-py ## Look for known vulnerabilities of all pinned dependencies; asks the registries
 	build/supply/bin/pip-audit --disable-pip --require-hashes --requirement requirements/run.txt
+	build/supply/bin/pip-audit --disable-pip --require-hashes --requirement requirements/extras.txt
 	build/supply/bin/pip-audit --disable-pip --require-hashes --requirement requirements/dev.txt
 	cd web && npm audit --omit=dev
 
@@ -130,6 +132,8 @@ lock: $(READY) ## Pin the dependencies of pyproject.toml in requirements/, with 
 	  --group dev --output-file requirements/dev.txt pyproject.toml
 	$(BIN)/uv pip compile --quiet --universal --python-version 3.11 --generate-hashes --no-header --no-annotate \
 	  --output-file requirements/run.txt pyproject.toml
+	$(BIN)/uv pip compile --quiet --universal --python-version 3.11 --generate-hashes --no-header --no-annotate \
+	  --all-extras --constraint requirements/dev.txt --output-file requirements/extras.txt pyproject.toml
 	printf 'cyclonedx-bom\npip-audit\ntwine\n' | $(BIN)/uv pip compile --quiet --universal --python-version 3.11 \
 	  --generate-hashes --no-header --no-annotate --output-file requirements/supply.txt -
 	printf 'black\nmkdocs\nmkdocs-material\nmkdocstrings-python\n' | $(BIN)/uv pip compile --quiet --universal --python-version 3.11 \
