@@ -1,7 +1,8 @@
 """Reads the code blocks of a documentation page and runs them.
 
 A block is run by its language. A `title` in its first line is the name of the file that it shows, and is written first.
-A line `*Not run by the tests: REASON.*` above a block says why it is not run.
+A line `*Not run by the tests: REASON.*` above a block says why it is not run, and `*Run by the tests if NAME is
+installed.*` names a program or module that it needs. A server is started, waited for, and stopped as by Ctrl+C.
 """
 
 import doctest
@@ -9,16 +10,21 @@ import json
 import os
 import re
 import shlex
+import shutil
+import signal
 import subprocess
 import sys
 import textwrap
+import threading
 import tomllib
 from collections import Counter
 from collections.abc import Sequence
+from importlib.util import find_spec
 from pathlib import Path
 from typing import Any, NamedTuple
 
 import pyoxigraph as ox
+import pytest
 import yaml
 
 from usd2kg.graph.vocabulary import PREFIXES
@@ -28,6 +34,7 @@ __all__ = ["Block", "Command", "matches", "read_blocks", "read_commands", "run_c
 
 _BLOCK = re.compile(
     r"""(?:^\*Not\ run\ by\ the\ tests:\ (?P<reason>[^*]+)\.\*\n)?
+    (?:^\*Run\ by\ the\ tests\ if\ (?P<needs>[^*]+)\ is\ installed\.\*\n)?
     ^(?P<indent>\ *)```(?P<language>\w*)(?:\ title="(?P<title>[^"]+)")?\n(?P<text>.*?)^(?P=indent)```$""",
     re.MULTILINE | re.DOTALL | re.VERBOSE,
 )
@@ -36,6 +43,11 @@ _ELLIPSIS = "…"
 _ROOT = Path(__file__).parents[1]
 _FINDING = re.compile(r"usd2kg (validate|diff|label lint|ontology check)\b")
 """Commands whose exit code is 1 if they find something."""
+_SERVER = re.compile(r"usd2kg (serve|studio)\b")
+"""Commands that run until Ctrl+C."""
+_SERVER_LIMIT_S = 120.0
+_INSTALL = re.compile(r"pip install 'usd2kg\[([\w,]+)\]'")
+"""Commands that the documentation shows for installing extras."""
 
 
 class Block(NamedTuple):
@@ -48,6 +60,8 @@ class Block(NamedTuple):
     """Name of the file that the block shows; empty if it shows none."""
     reason: str
     """Why the tests do not run it, as the page says; empty if they do."""
+    needs: str
+    """Program or module without which it does not run; empty if it needs none."""
     line: int
     """Number of its first line on the page."""
 
@@ -74,19 +88,21 @@ def read_blocks(page: Path, *languages: str) -> list[Block]:
             textwrap.dedent(match["text"]),
             match["title"] or "",
             " ".join((match["reason"] or "").split()),
+            match["needs"] or "",
             text.count("\n", 0, match.start("language")) + 1,
         )
         for match in _BLOCK.finditer(text)
     ]
     assert len(re.findall("^ *```", text, re.MULTILINE)) == 2 * len(blocks), f"{page}: a code block is not read"
     assert text.count("*Not run by") == sum(bool(block.reason) for block in blocks), f"{page}: a reason is not read"
+    assert text.count("*Run by the") == sum(bool(block.needs) for block in blocks), f"{page}: a need is not read"
     return [block for block in blocks if not languages or block.language in languages]
 
 
 def read_commands(block: Block) -> list[Command]:
     r"""Return the commands of a console block, in their order: lines after `$ `, or all lines if there is none.
 
-    >>> read_commands(Block("console", "$ usd2kg a \\\n    b\nc\n$ usd2kg d\n", "", "", 1))
+    >>> read_commands(Block("console", "$ usd2kg a \\\n    b\nc\n$ usd2kg d\n", "", "", "", 1))
     [Command(line='usd2kg a     b', output=('c',)), Command(line='usd2kg d', output=())]
     """
     text = block.text.replace("\\\n", "")
@@ -108,7 +124,13 @@ def run_page(page: Path, folder: Path) -> Counter[str]:
         done = doctest.testfile(str(page), module_relative=False, optionflags=flags, encoding="utf-8")
         assert done.attempted > 0
         assert done.failed == 0
-    return Counter("marked" if block.reason else run_block(block, folder) for block in blocks)
+    return Counter(
+        "marked" if block.reason or _is_missing(block.needs) else run_block(block, folder) for block in blocks
+    )
+
+
+def _is_missing(name: str) -> bool:
+    return bool(name) and shutil.which(name) is None and find_spec(name) is None
 
 
 def run_block(block: Block, folder: Path) -> str:
@@ -159,10 +181,48 @@ def _run_console(command: Command, folder: Path) -> None:
         # Recipes of this checkout; a folder of the tests has none.
         assert f"make {words[1]}" in (_ROOT / ".ci/run").read_text("utf-8"), f"{command.line}: .ci/run does not run it"
         return
+    if install := _INSTALL.match(command.line):
+        extras = tomllib.loads((_ROOT / "pyproject.toml").read_text("utf-8"))["project"]["optional-dependencies"]
+        assert set(install[1].split(",")) <= extras.keys(), command.line
+        return
+    if _SERVER.match(command.line):
+        _run_server(command.line, folder)
+        return
     code, printed = run_command(command.line, folder)
     allowed = {0, 1} if _FINDING.search(command.line) else {0}
     assert code in allowed, "\n".join([command.line, *printed])
     assert not command.output or matches(command.output, printed), "\n".join([command.line, *printed])
+
+
+def _run_server(line: str, folder: Path) -> None:
+    """Start a server on a free port, wait until it names its address, and stop it as Ctrl+C does.
+
+    Raises:
+        AssertionError: it names no address in time, or does not end with 0.
+    """
+    words = [*shlex.split(line, comments=True), *([] if "--port" in line else ["--port", "0"])]
+    # The studio opens a browser.
+    environment = {**_environment(folder), "BROWSER": "true"}
+    with subprocess.Popen(
+        words, cwd=folder, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, encoding="utf-8", env=environment
+    ) as server:
+        timer = threading.Timer(_SERVER_LIMIT_S, server.kill)
+        timer.start()
+        try:
+            assert server.stderr is not None
+            printed: list[str] = []
+            for text in server.stderr:
+                printed.append(text)
+                if "http://" in text:
+                    break
+            else:
+                pytest.fail(f"{line}: names no address: {''.join(printed)}")
+            server.send_signal(signal.SIGINT)
+            server.stderr.read()
+            assert server.wait() == 0, f"{line}: {''.join(printed)}"
+        finally:
+            timer.cancel()
+            server.kill()
 
 
 def _check(done: "subprocess.CompletedProcess[str]") -> None:
@@ -175,9 +235,13 @@ def _options(folder: Path) -> dict[str, Any]:
 
 def run_command(line: str, folder: Path) -> tuple[int, list[str]]:
     """Return the exit code of a command line in a folder, and the lines that it prints."""
-    environment = {**os.environ, "PATH": f"{_write_shims(folder)}{os.pathsep}{os.environ['PATH']}"}
-    done = subprocess.run(["bash", "-o", "pipefail", "-c", line], check=False, env=environment, **_options(folder))
+    bash = ["bash", "-o", "pipefail", "-c", line]
+    done = subprocess.run(bash, check=False, env=_environment(folder), **_options(folder))
     return done.returncode, done.stdout.splitlines()
+
+
+def _environment(folder: Path) -> dict[str, str]:
+    return {**os.environ, "PATH": f"{_write_shims(folder)}{os.pathsep}{os.environ['PATH']}"}
 
 
 def _write_shims(folder: Path) -> Path:

@@ -58,6 +58,16 @@ def _kitchen(folder: Path) -> None:
     shutil.copytree(demo_scene().parent, folder, dirs_exist_ok=True)
 
 
+def _formats(folder: Path) -> None:
+    _kitchen(folder)
+    usd2kg.write_graph(usd2kg.build(demo_scene()).graph, folder / "kitchen.jsonld")
+
+
+def _studio(folder: Path) -> None:
+    _small_house(folder)
+    _two_kitchens(folder)
+
+
 def _kitchen_graph(folder: Path) -> None:
     usd2kg.write_graph(usd2kg.build(demo_scene()).graph, folder / "kitchen.ttl")
 
@@ -179,7 +189,7 @@ PAGES: Mapping[str, Callable[[Path], None]] = {
     "docs/batch.md": _folder_of_rooms,
     "docs/change.md": _two_kitchens,
     "docs/evaluation.md": _evaluation,
-    "docs/formats.md": _kitchen,
+    "docs/formats.md": _formats,
     "docs/grounding.md": _nothing,
     "docs/inputs.md": _inputs,
     "docs/labels.md": _labels,
@@ -190,7 +200,7 @@ PAGES: Mapping[str, Callable[[Path], None]] = {
     "docs/relations.md": _rooms,
     "docs/robots.md": _robots,
     "docs/stores.md": _stores,
-    "docs/studio.md": _nothing,
+    "docs/studio.md": _studio,
     "docs/validation.md": _validation,
     "docs/vocabulary.md": _nothing,
 }
