@@ -3,12 +3,15 @@
 from collections.abc import AsyncIterator, Callable
 from contextlib import asynccontextmanager
 from contextvars import ContextVar
+from functools import cache
 from typing import TYPE_CHECKING, Any
 
 from usd2kg.grounding.llm.limits import LIMITS
 from usd2kg.grounding.llm.model_reference import ModelReference
 
 if TYPE_CHECKING:
+    from ssl import SSLContext
+
     from httpx2 import AsyncClient, Response
     from pydantic_ai.models import Model
 
@@ -28,10 +31,18 @@ def open_http(reference: ModelReference, timeout_s: float) -> "AsyncClient":
 
     timeout = httpx2.Timeout(timeout_s, connect=min(timeout_s, LIMITS.connect_timeout_s), pool=None)
     # An explicit transport bypasses the proxies of the environment.
-    transport = httpx2.AsyncHTTPTransport() if reference.is_loopback else None
+    transport = httpx2.AsyncHTTPTransport(verify=_tls_context()) if reference.is_loopback else None
     http = create_async_httpx2_client(timeout=timeout, transport=transport)
     http.event_hooks = {"response": [_record_response]}
     return http
+
+
+@cache
+def _tls_context() -> "SSLContext":
+    """Return the default settings of TLS; reading the certificates takes 40 ms."""
+    import httpx2  # noqa: PLC0415 - the extra may be missing
+
+    return httpx2.create_ssl_context()
 
 
 async def _record_response(response: "Response") -> None:
