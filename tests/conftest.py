@@ -1,7 +1,9 @@
 """Fixtures that several tests share."""
 
 import os
+import shutil
 import signal
+import tempfile
 from collections.abc import Callable
 from pathlib import Path
 
@@ -10,15 +12,24 @@ import pytest
 from tests.scene.usda import METRES
 from usd2kg.ontology import TBox, load_home_tbox
 from usd2kg.scene import Scene, read_scene
+from usd2kg.table_cache import TABLE_CACHE_VARIABLE
 
 SHARED = Path(os.environ.get("USD2KG_SHARED", Path(__file__).parents[2] / "shared"))
 """Real scenes and ontologies with gold labels; they may not be redistributed with the project."""
 
-os.environ["USD2KG_TABLE_CACHE"] = "off"
-"""Tests that change a setting of the grounder must not read tables that were computed without the change."""
-
 signal.signal(signal.SIGINT, signal.default_int_handler)
 """A shell has what it runs in the background ignore interruptions, and so would all that the tests start."""
+
+
+def pytest_configure(config: pytest.Config) -> None:
+    """Share one empty cache of tables among all processes of a run.
+
+    A test that changes a setting of the grounder must switch it off: the tables were computed without the change.
+    """
+    if not hasattr(config, "workerinput"):
+        folder = tempfile.mkdtemp(prefix="usd2kg-tables-")
+        config.add_cleanup(lambda: shutil.rmtree(folder))
+        os.environ[TABLE_CACHE_VARIABLE] = folder
 
 
 @pytest.fixture

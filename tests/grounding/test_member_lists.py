@@ -19,6 +19,7 @@ from usd2kg.grounding.lexical.grounder import LexicalGrounder
 from usd2kg.knowledge import read_rows
 from usd2kg.ontology import OntologyClass, TBox, load_home_tbox, load_tbox, read_registry
 from usd2kg.ontology.model import local_name
+from usd2kg.table_cache import TABLE_CACHE_VARIABLE
 
 PUB = "https://pub.example/onto#"
 OWN = "https://own.example/onto#"
@@ -39,6 +40,7 @@ TBOX = make_tbox(*PUBLIC)
 @pytest.fixture(autouse=True)
 def lists(monkeypatch: pytest.MonkeyPatch) -> None:
     """Ship `LISTS` for the classes of `PUB`, and no others."""
+    monkeypatch.setenv(TABLE_CACHE_VARIABLE, "off")
     monkeypatch.setattr(
         member_lists, "_lists_for", lambda tbox: {one.class_iri: one for one in LISTS if one.class_iri in tbox.by_iri}
     )
