@@ -30,6 +30,7 @@ def shown(name: str) -> str:
     return "\n".join("".join(output.get("text") or output["data"]["text/plain"]) for output in found)
 
 
+@pytest.mark.docs
 @pytest.mark.parametrize("path", NOTEBOOKS, ids=lambda path: path.stem)
 def test_outputs_are_those_of_a_run(path: Path):
     check = [sys.executable, "-m", "tools.write_notebooks", "--check", path.stem]

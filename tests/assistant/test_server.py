@@ -11,7 +11,8 @@ from typing import Any
 import pytest
 from mcp import Client, StdioServerParameters, stdio_client
 
-from usd2kg import build, write_graph
+from tests.kitchen import kitchen_graph
+from usd2kg import write_graph
 from usd2kg.demo import demo_scene
 
 
@@ -19,7 +20,7 @@ from usd2kg.demo import demo_scene
 def kitchen(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """The graph of the demo kitchen."""
     path = tmp_path_factory.mktemp("mcp") / "kitchen.ttl"
-    write_graph(build(demo_scene()).graph, path)
+    write_graph(kitchen_graph(), path)
     return path
 
 

@@ -14,6 +14,11 @@ if TYPE_CHECKING:
 @pytest.fixture
 def svg_only(monkeypatch: pytest.MonkeyPatch) -> None:
     """Leave PNG and PDF empty, which take most of the time of a report."""
+    omit_png_and_pdf(monkeypatch)
+
+
+def omit_png_and_pdf(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Leave PNG and PDF empty until the patches are undone."""
     save = canvas._save
 
     def save_svg(drawn: "Canvas", file_format: str, omitted: Sequence[str]) -> bytes:

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from tests.conftest import shared_file
 from tests.grounding.records import neighbours_of, words_written
-from usd2kg.demo import demo_scene
+from tests.kitchen import kitchen_scene
 from usd2kg.grounding import EVIDENCE_GROUPS, NamingRegime, ObjectView, make_grounder, view_objects
 from usd2kg.grounding.context import Neighbour
 from usd2kg.ontology import TBox
@@ -23,7 +23,7 @@ MASKED = [regime for regime in NamingRegime if regime is not NamingRegime.SEMANT
 @pytest.fixture(scope="module", params=["demo kitchen", "IAI apartment", "AWS house", "Franka kitchen"])
 def scene(request: pytest.FixtureRequest) -> Scene:
     if request.param == "demo kitchen":
-        return read_scene(demo_scene())
+        return kitchen_scene()
     return read_scene(
         shared_file(
             {

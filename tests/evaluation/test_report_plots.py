@@ -48,11 +48,14 @@ def test_plots_are_deterministic_without_a_date():
     assert "metadata" not in first
 
 
-def test_each_plot_is_also_written_as_png_and_pdf(tmp_path: Path):
-    write_report([full()], "A title", tmp_path)
-    names = {path.stem for path in (tmp_path / "plots").glob("*.svg")}
+def test_writes_and_returns_all_files_and_each_plot_also_as_png_and_pdf(tmp_path: Path):
+    folder = tmp_path / "new" / "folder"
+    paths = write_report([full()], "A title", folder)
+    assert {path.name for path in paths} >= {"report.md", "report.html", "report.tex", "results.csv", "results.json"}
+    assert {path for path in folder.rglob("*") if path.is_file()} == set(paths)
+    names = {path.stem for path in (folder / "plots").glob("*.svg")}
     for ending, start in ((".png", b"\x89PNG\r\n"), (".pdf", b"%PDF-")):
-        found = list((tmp_path / "plots").glob(f"*{ending}"))
+        found = list((folder / "plots").glob(f"*{ending}"))
         assert {path.stem for path in found} == names
         assert all(path.read_bytes().startswith(start) for path in found)
 

@@ -8,10 +8,10 @@ import re
 import sys
 from html.parser import HTMLParser
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 import pytest
 
+from tests.evaluation.conftest import omit_png_and_pdf
 from tests.evaluation.report_records import FIRST, NS, SECOND, tiny
 from usd2kg.errors import EvaluationError
 from usd2kg.evaluation import SceneResult
@@ -21,9 +21,6 @@ from usd2kg.evaluation.report.canvas import check_matplotlib
 from usd2kg.evaluation.report.html import format_html
 from usd2kg.evaluation.report.latex import escape_latex, format_latex
 from usd2kg.evaluation.report.markdown import escape_markdown, format_markdown
-
-if TYPE_CHECKING:
-    pass
 
 EVIL = "<script>alert(1)</script>|\n"
 EVIL_CLASS = "a|`b`$x$<b>&amp;\\_%[c](d)\x1b"
@@ -75,14 +72,27 @@ def read_page(text: str) -> Page:
     return page
 
 
-class TestFiles:
-    def test_writes_and_returns_all_files(self, tmp_path: Path):
-        paths = write_report([tiny()], "A title", tmp_path / "new" / "folder")
-        names = {path.name for path in paths}
-        assert names >= {"report.md", "report.html", "report.tex", "results.csv", "results.json"}
-        assert all(path.is_file() for path in paths)
-        assert {p for p in (tmp_path / "new" / "folder").rglob("*") if p.is_file()} == set(paths)
+@pytest.fixture(scope="module")
+def plain_report(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """The folder of a report on the tiny scene, without PNG and PDF."""
+    return write_once([tiny()], "A title", tmp_path_factory)
 
+
+@pytest.fixture(scope="module")
+def hostile_report(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """The folder of a report on the scene with hostile names, without PNG and PDF."""
+    return write_once([evil()], EVIL, tmp_path_factory)
+
+
+def write_once(results: list[SceneResult], title: str, folders: pytest.TempPathFactory) -> Path:
+    folder = folders.mktemp("report")
+    with pytest.MonkeyPatch.context() as patch:
+        omit_png_and_pdf(patch)
+        write_report(results, title, folder)
+    return folder
+
+
+class TestFiles:
     @pytest.mark.usefixtures("svg_only")  # test_report_plots compares the others
     def test_output_is_deterministic(self, tmp_path: Path):
         runs = {("first", "semantic"): FIRST, ("first", "geometry only"): SECOND, ("first", "name only"): SECOND}
@@ -139,15 +149,13 @@ class TestFiles:
 
 @pytest.mark.usefixtures("svg_only")
 class TestMarkdown:
-    def test_tables_read_back(self, tmp_path: Path):
-        write_report([tiny()], "A title", tmp_path)
-        main = markdown_tables((tmp_path / "report.md").read_text("utf-8"))[1]
+    def test_tables_read_back(self, plain_report: Path):
+        main = markdown_tables((plain_report / "report.md").read_text("utf-8"))[1]
         assert main[0] == ["method", "semantic", "abbreviated", "opaque", "opaque-anonymous"]
         assert main[2] == ["first", "50 / .87", "–", "–", "–"]
 
-    def test_escapes_hostile_names(self, tmp_path: Path):
-        write_report([evil()], EVIL, tmp_path)
-        text = (tmp_path / "report.md").read_text("utf-8")
+    def test_escapes_hostile_names(self, hostile_report: Path):
+        text = (hostile_report / "report.md").read_text("utf-8")
         assert "<script" not in text
         assert "\x1b" not in text
         for table in markdown_tables(text):
@@ -163,15 +171,13 @@ class TestMarkdown:
 
 @pytest.mark.usefixtures("svg_only")
 class TestLatex:
-    def test_tables_read_back(self, tmp_path: Path):
-        write_report([tiny()], "A title", tmp_path)
-        text = (tmp_path / "report.tex").read_text("utf-8")
+    def test_tables_read_back(self, plain_report: Path):
+        text = (plain_report / "report.tex").read_text("utf-8")
         assert "\nfirst & 50 / .87 & -- & -- & -- \\\\\n" in text
         assert text.count(r"\begin{tabular}") == text.count(r"\end{tabular}")
 
-    def test_escapes_hostile_names(self, tmp_path: Path):
-        write_report([evil()], EVIL, tmp_path)
-        text = (tmp_path / "report.tex").read_text("utf-8")
+    def test_escapes_hostile_names(self, hostile_report: Path):
+        text = (hostile_report / "report.tex").read_text("utf-8")
         for columns, body in re.findall(r"\\begin\{tabular\}\{([^\n]*)\}\n(.*?)\\end\{tabular\}", text, re.DOTALL):
             wanted = columns.replace(r"p{0.5\linewidth}", "l")
             rows = [line for line in body.split("\n") if line not in {"", r"\hline"}]
@@ -192,10 +198,9 @@ class TestLatex:
     def test_escapes_special_characters(self, text: str, escaped: str):
         assert escape_latex(text) == escaped
 
-    def test_tables_and_plots_have_captions_and_labels(self, tmp_path: Path):
+    def test_tables_and_plots_have_captions_and_labels(self, plain_report: Path):
         pytest.importorskip("matplotlib")
-        write_report([tiny()], "A title", tmp_path)
-        text = (tmp_path / "report.tex").read_text("utf-8")
+        text = (plain_report / "report.tex").read_text("utf-8")
         floats = re.findall(r"\\begin\{(table|figure)\}\[htbp\]\n(.*?)\\end\{\1\}", text, re.DOTALL)
         assert {kind for kind, _ in floats} == {"table", "figure"}
         for kind, body in floats:
@@ -204,7 +209,7 @@ class TestLatex:
         labels = re.findall(r"\\label\{(.*?)\}", text)
         assert len(labels) == len(set(labels)) == len(floats)
         pictures = re.findall(r"\\includegraphics\[width=\\linewidth\]\{(.*?)\}", text)
-        assert pictures and all((tmp_path / picture).is_file() for picture in pictures)
+        assert pictures and all((plain_report / picture).is_file() for picture in pictures)
         assert "\\caption{Tiny: exact match by naming regime; lines are 95 \\% intervals" in text
 
     def test_the_note_of_a_table_is_in_its_caption(self):
@@ -225,10 +230,9 @@ class TestLatex:
 
 @pytest.mark.usefixtures("svg_only")
 class TestHtml:
-    @pytest.mark.parametrize("results", [[tiny()], [evil()]])
-    def test_page_is_self_contained(self, results: list[SceneResult], tmp_path: Path):
-        write_report(results, EVIL, tmp_path)
-        text = (tmp_path / "report.html").read_text("utf-8")
+    @pytest.mark.parametrize("report", ["plain_report", "hostile_report"])
+    def test_page_is_self_contained(self, report: str, request: pytest.FixtureRequest):
+        text = (request.getfixturevalue(report) / "report.html").read_text("utf-8")
         page = read_page(text)
         assert not {"script", "link", "img", "image", "iframe", "object", "embed", "base"} & set(page.tags)
         for key, value in page.attributes:
@@ -239,9 +243,8 @@ class TestHtml:
         assert "@import" not in text
         assert not re.search(r"url\((?!#)", text)
 
-    def test_shows_hostile_names_as_text(self, tmp_path: Path):
-        write_report([evil()], EVIL, tmp_path)
-        page = read_page((tmp_path / "report.html").read_text("utf-8"))
+    def test_shows_hostile_names_as_text(self, hostile_report: Path):
+        page = read_page((hostile_report / "report.html").read_text("utf-8"))
         assert printable(f"/W/{EVIL}") in page.text
         assert "b" not in page.tags
 
@@ -278,16 +281,14 @@ class TestData:
         assert float(rows[0]["seconds_per_object"]) == 0.1
         assert rows[1]["accuracy_at_80"] == ""
 
-    def test_csv_contains_no_formula(self, tmp_path: Path):
-        write_report([evil()], "t", tmp_path)
-        text = (tmp_path / "results.csv").read_text("utf-8")
+    def test_csv_contains_no_formula(self, hostile_report: Path):
+        text = (hostile_report / "results.csv").read_text("utf-8")
         rows = list(csv.DictReader(io.StringIO(text, newline="")))
         assert rows[0]["scene"] == '\'=HYPERLINK("x")' + EVIL
         assert not any(cell.startswith(("=", "+", "-", "@")) for row in rows for cell in row.values())
 
-    def test_json_omits_folders(self, tmp_path: Path):
-        write_report([tiny()], "t", tmp_path)
-        text = (tmp_path / "results.json").read_text("utf-8")
+    def test_json_omits_folders(self, plain_report: Path):
+        text = (plain_report / "results.json").read_text("utf-8")
         [scene] = json.loads(text)["scenes"]
         assert "somewhere" not in text
         assert scene["selection"]["unlabelled"] == ["/W/Lamp"]

@@ -7,8 +7,8 @@ import pytest
 import usd2kg
 from tests.conftest import shared_file
 from tests.graph.test_vocabulary import WRITTEN
+from tests.kitchen import kitchen_scene
 from tools.check_owl import check_owl, missing_tools
-from usd2kg.demo import demo_scene
 from usd2kg.graph import GraphOptions, read_document, vocabulary_text, write_graph
 from usd2kg.relations import ALL_KINDS, RelationOptions, parse_viewpoint
 
@@ -45,7 +45,7 @@ def ontologies() -> Path:
 
 @pytest.mark.parametrize("profile", PROFILES)
 def test_demo_kitchen_is_owl_2_dl(tmp_path: Path, profile: str):
-    graph = usd2kg.build(demo_scene(), profile=profile, relations=EVERY_RELATION).graph
+    graph = usd2kg.build(kitchen_scene(), profile=profile, relations=EVERY_RELATION).graph
     assert {relation.kind for relation in graph.relations} == set(ALL_KINDS)
     write_graph(graph, tmp_path / "demo.ttl")
     report = check_owl(tmp_path / "demo.ttl")

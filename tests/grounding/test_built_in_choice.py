@@ -8,8 +8,8 @@ import pytest
 
 from benchmarks.bare import bare_object, bare_scene
 from tests.conftest import shared_file
+from tests.kitchen import kitchen_scene
 from usd2kg import build
-from usd2kg.demo import demo_scene
 from usd2kg.diff.versions import VersionOptions, read_versions
 from usd2kg.graph import write_graph
 from usd2kg.grounding import ObjectView, make_grounder
@@ -41,7 +41,7 @@ def test_copies_of_a_name_count_once():
 
 
 def test_the_demo_kitchen_is_a_home():
-    assert choose_built_in_tbox(read_scene(demo_scene())) is load_home_tbox()
+    assert choose_built_in_tbox(kitchen_scene()) is load_home_tbox()
 
 
 @pytest.mark.parametrize(
@@ -90,7 +90,7 @@ def test_a_file_states_places_by_its_text(tmp_path: Path, name: str):
 def test_decisions_with_classes_of_places_are_kept_in_a_home():
     forklift = PLACES.resolve("Forklift")
     path = "/KitchenDining/diningArea/diningTable"
-    built = build(demo_scene(), decisions={path: forklift})
+    built = build(kitchen_scene(), decisions={path: forklift})
     assert built.grounding.by_path[path].class_iri == forklift
 
 
@@ -147,4 +147,4 @@ def test_a_self_contained_graph_has_the_classes_of_places():
 
 
 def test_build_uses_the_named_tbox():
-    assert build(demo_scene(), "places").tbox is PLACES
+    assert build(kitchen_scene(), "places").tbox is PLACES

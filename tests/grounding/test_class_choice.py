@@ -3,13 +3,12 @@
 import pytest
 
 from tests.grounding.records import SOMA
-from usd2kg.demo import demo_scene
+from tests.kitchen import kitchen_scene
 from usd2kg.grounding import ObjectView, Prediction, ground
 from usd2kg.grounding.lexical.class_choice import choose_superclass, reconcile_copies, superclass_confidence
 from usd2kg.grounding.lexical.grounder import LexicalGrounder
 from usd2kg.grounding.model import Candidate, Status
 from usd2kg.ontology import TBox
-from usd2kg.scene import read_scene
 
 CUP, BOWL, PLATE, CROCKERY, KNIFE, TABLE_KNIFE = (
     SOMA + name for name in ("Cup", "Bowl", "Plate", "Crockery", "Knife", "TableKnife")
@@ -86,7 +85,7 @@ class TestAbstaining:
     def test_no_superclass_in_the_demo_kitchen_is_less_probable_than_the_class_it_replaces(
         self, home_tbox: TBox
     ) -> None:
-        scene = read_scene(demo_scene())
+        scene = kitchen_scene()
         leaves = ground(scene, home_tbox, LexicalGrounder()).by_path
         abstained = ground(scene, home_tbox, LexicalGrounder(abstains=True)).predictions
         changed = [one for one in abstained if one.class_iri != leaves[one.prim_path].class_iri]

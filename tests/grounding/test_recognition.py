@@ -6,12 +6,12 @@ import pytest
 
 from benchmarks.bare import bare_object, bare_scene
 from tests.grounding.records import make_class, make_object, make_scene, make_tbox
-from usd2kg.demo import demo_scene
+from tests.kitchen import kitchen_scene
 from usd2kg.grounding import Grounding, NamingRegime, Prediction, Status, concepts_named, ground
 from usd2kg.grounding.lexical.recognition import ConfidenceWeights, describe_concepts
 from usd2kg.knowledge import read_text
 from usd2kg.ontology import TBox, load_home_tbox
-from usd2kg.scene import Scene, read_scene
+from usd2kg.scene import Scene
 
 HALL = make_tbox(make_class("Asset"), make_class("Machine", "Asset", label="machine"))
 """An ontology without a class for any object of a home."""
@@ -19,7 +19,7 @@ HALL = make_tbox(make_class("Asset"), make_class("Machine", "Asset", label="mach
 
 @pytest.fixture(scope="module")
 def demo() -> Scene:
-    return read_scene(demo_scene())
+    return kitchen_scene()
 
 
 def concepts_of(grounding: Grounding) -> dict[str, str | None]:

@@ -5,11 +5,10 @@ from dataclasses import replace
 import pytest
 
 from benchmarks.bare import bare_object, bare_scene
-from usd2kg.demo import demo_scene
+from tests.kitchen import kitchen_scene
 from usd2kg.grounding import NamingRegime, ground
 from usd2kg.grounding.lexical.reading.shared_prefix import shared_prefix, without_prefix
 from usd2kg.ontology import load_home_tbox
-from usd2kg.scene import read_scene
 
 THINGS = ("Bucket", "Chair", "Lamp", "Shelf", "Table", "TrashCan", "Cup", "Bottle")
 
@@ -83,7 +82,7 @@ def test_a_distant_spelling_is_not_read_before_a_word_that_names_an_object():
 
 @pytest.mark.parametrize("prefix", ["acme_", "ACME_HQ_Level02_", "robomaker_warehouse_", "Zorg"])
 def test_a_common_prefix_changes_hardly_any_class_of_the_demo_scene(prefix: str):
-    scene = read_scene(demo_scene())
+    scene = kitchen_scene()
     renamed = replace(
         scene, objects=tuple(replace(one, name=prefix + one.name[:1].upper() + one.name[1:]) for one in scene.objects)
     )

@@ -11,9 +11,9 @@ from types import ModuleType, SimpleNamespace
 import pytest
 
 from tests.integrations.conftest import INTEGRATIONS, SCENE
+from tests.kitchen import kitchen_scene
 from usd2kg.demo import demo_scene
 from usd2kg.grounding import format_mapping, ground
-from usd2kg.scene import read_scene
 
 FOLDER = INTEGRATIONS / "blender"
 SCRIPT = FOLDER / "import_graph.py"
@@ -31,7 +31,7 @@ def script(monkeypatch):
 @pytest.fixture(scope="module")
 def kitchen(home_tbox):
     """The grounding of the demo kitchen."""
-    return ground(read_scene(demo_scene()), home_tbox)
+    return ground(kitchen_scene(), home_tbox)
 
 
 # Inputs

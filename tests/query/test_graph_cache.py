@@ -13,8 +13,8 @@ from pathlib import Path
 import pytest
 
 import usd2kg
+from tests.kitchen import kitchen_graph
 from usd2kg.assistant import ask_offline
-from usd2kg.demo import demo_scene
 from usd2kg.errors import GraphError, StoreError
 from usd2kg.folder_lock import lock_exclusive
 from usd2kg.query import GraphStore, graph_cache, load_graph
@@ -34,7 +34,7 @@ GIVEN = {
 def kitchen(request, tmp_path_factory: pytest.TempPathFactory) -> Path:
     """The graph of the demo kitchen in both profiles."""
     path = tmp_path_factory.mktemp("kitchen") / "kitchen.ttl"
-    graph = usd2kg.build(demo_scene(), profile=request.param).graph
+    graph = kitchen_graph(request.param)
     usd2kg.write_graph(graph, path)
     return path
 

@@ -15,7 +15,8 @@ import rdflib
 import usd2kg
 from tests.conftest import shared_file
 from tests.graph.records import build_graph, thing
-from usd2kg.demo import demo_relations, demo_scene
+from tests.kitchen import kitchen_scene
+from usd2kg.demo import demo_relations
 from usd2kg.graph import PropertyGraph, rdf_format, read_document, read_property_graph, write_graph
 from usd2kg.graph.export.ros.frame_ids import frame_id_of
 from usd2kg.graph.export.ros.rigid_transform import read_pose
@@ -43,7 +44,7 @@ Rows = list[tuple[str, ...]]
 def write(tmp_path_factory: pytest.TempPathFactory) -> Write:
     """A function that writes the demo kitchen's graph, cached by its options."""
     folder = tmp_path_factory.mktemp("kitchen")
-    scene = usd2kg.read_scene(demo_scene())
+    scene = kitchen_scene()
     relations = RelationOptions(kinds=ALL_KINDS, viewpoint=parse_viewpoint("0,0,1.6"))
 
     @cache
@@ -72,6 +73,7 @@ def graph(write: Write) -> PropertyGraph:
     return read_property_graph(read_document(write()))
 
 
+@cache
 def ask_prolog(path: Path, *question: str) -> Rows:
     """Return SWI-Prolog's answers to a question: rows of prim paths, names and numbers."""
     done = subprocess.run(

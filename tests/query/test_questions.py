@@ -9,7 +9,8 @@ import pytest
 
 import usd2kg
 from tests.graph.records import build_graph, open_store, thing
-from usd2kg.demo import demo_relations, demo_scene
+from tests.kitchen import kitchen_graph
+from usd2kg.demo import demo_relations
 from usd2kg.errors import GraphError
 from usd2kg.graph.vocabulary import PREFIXES
 from usd2kg.ontology import TBox
@@ -55,7 +56,7 @@ def room(home_tbox: TBox, request: pytest.FixtureRequest) -> GraphStore:
 @pytest.fixture(scope="module")
 def kitchen(tmp_path_factory: pytest.TempPathFactory) -> GraphStore:
     path = tmp_path_factory.mktemp("demo") / "kitchen.ttl"
-    usd2kg.write_graph(usd2kg.build(demo_scene()).graph, path)
+    usd2kg.write_graph(kitchen_graph(), path)
     return usd2kg.load_graph(path)
 
 

@@ -10,7 +10,7 @@ from benchmarks.names.lists import PUBLIC_ONTOLOGIES
 from tests.conftest import shared_file
 from tests.graph.records import thing
 from tests.grounding.records import LAB, make_class, make_scene, make_tbox
-from usd2kg.demo import demo_scene
+from tests.kitchen import kitchen_scene
 from usd2kg.grounding import NamingRegime, ground
 from usd2kg.ontology import TBox, load_home_tbox, load_tbox
 from usd2kg.relations import RelationOptions, find_relations, load_rules
@@ -44,7 +44,7 @@ ROOM = make_scene(
 
 @cache
 def demo() -> Scene:
-    return read_scene(demo_scene())
+    return kitchen_scene()
 
 
 def links(scene: Scene, tbox: TBox, options: RelationOptions | None = None) -> set[tuple[str, str, str]]:

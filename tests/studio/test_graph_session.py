@@ -11,9 +11,9 @@ import pytest
 
 from tests.graph.records import ground_as
 from tests.grounding.records import make_scene
+from tests.kitchen import kitchen_scene
 from tests.relations.test_derived_rooms import BED, FLAT, SOFA, door
 from tests.studio.conftest import running_studio
-from usd2kg.demo import demo_scene
 from usd2kg.errors import GroundingError
 from usd2kg.graph import GraphOptions, instantiate, write_graph
 from usd2kg.graph.rdf_document import read_statements
@@ -48,7 +48,7 @@ def graph(stage: Path, tmp_path_factory: pytest.TempPathFactory) -> Path:
 @pytest.mark.parametrize("profile", ["soma", "plain"])
 @pytest.mark.parametrize("annotations", ["owl", "rdf12"])
 def test_a_graph_is_read_back_as_the_stage_was(profile: str, annotations: str, tmp_path: Path):
-    built = build(demo_scene(), profile=profile, graph_options=GraphOptions(annotations=annotations))
+    built = build(kitchen_scene(), profile=profile, graph_options=GraphOptions(annotations=annotations))
     path = tmp_path / "kitchen.nq"
     write_graph(built.graph, path)
     with opened(path, tmp_path / "p") as session:

@@ -12,9 +12,8 @@ import yaml
 from hypothesis import given
 from hypothesis import strategies as st
 
-import usd2kg
 from tests.graph.records import build_graph, thing
-from usd2kg.demo import demo_scene
+from tests.kitchen import kitchen_graph
 from usd2kg.errors import GraphError, OutputError
 from usd2kg.graph import PropertyEdge, PropertyGraph, PropertyNode, document_of, read_property_graph
 from usd2kg.graph import write_ros2 as write_detections
@@ -46,7 +45,7 @@ VISION_MSGS = {
 
 @pytest.fixture(scope="module")
 def kitchen() -> PropertyGraph:
-    return read_property_graph(document_of(usd2kg.build(demo_scene()).graph))
+    return read_property_graph(document_of(kitchen_graph()))
 
 
 def placed(path: str, at: tuple[float, ...] = (0, 0, 0), turn: tuple[float, ...] = (0, 0, 0, 1), **more: Any):
@@ -210,7 +209,7 @@ class TestFiles:
         assert json.loads(json_text(value)) == expected
 
     def test_both_profiles_and_runs_give_the_same_files(self, kitchen: PropertyGraph, tmp_path: Path):
-        plain = read_property_graph(document_of(usd2kg.build(demo_scene(), profile="plain").graph))
+        plain = read_property_graph(document_of(kitchen_graph("plain")))
         for name, graph in (("soma", kitchen), ("plain", plain)):
             write_transforms(graph, tmp_path / name)
             write_detections(graph, tmp_path / name)
