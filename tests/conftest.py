@@ -1,13 +1,15 @@
 """Fixtures that several tests share."""
 
+import gc
 import os
 import shutil
 import signal
 import tempfile
-from collections.abc import Callable
+from collections.abc import Callable, Generator
 from pathlib import Path
 
 import pytest
+from _pytest.doctest import DoctestModule
 
 from tests.scene.usda import METRES
 from usd2kg.ontology import TBox, load_home_tbox
@@ -16,6 +18,9 @@ from usd2kg.table_cache import TABLE_CACHE_VARIABLE
 
 SHARED = Path(os.environ.get("USD2KG_SHARED", Path(__file__).parents[2] / "shared"))
 """Real scenes and ontologies with gold labels; they may not be redistributed with the project."""
+
+gc.set_threshold(50_000, 20, 100)
+"""Tests make many small things that stay; the collector's own thresholds cost them a tenth of the time."""
 
 signal.signal(signal.SIGINT, signal.default_int_handler)
 """A shell has what it runs in the background ignore interruptions, and so would all that the tests start."""
@@ -30,6 +35,19 @@ def pytest_configure(config: pytest.Config) -> None:
         folder = tempfile.mkdtemp(prefix="usd2kg-tables-")
         config.add_cleanup(lambda: shutil.rmtree(folder))
         os.environ[TABLE_CACHE_VARIABLE] = folder
+
+
+def pytest_collection_finish() -> None:
+    """Keep the cyclic garbage collector from walking through all tests and modules again and again."""
+    gc.freeze()
+
+
+@pytest.hookimpl(wrapper=True)
+def pytest_collect_file(file_path: Path) -> Generator[None, list[pytest.Collector], list[pytest.Collector]]:
+    """Look for examples only in test files that have some."""
+    found = yield
+    has_examples = ">>>" in file_path.read_text("utf-8")
+    return [one for one in found if has_examples or not isinstance(one, DoctestModule)]
 
 
 @pytest.fixture

@@ -23,6 +23,7 @@ from usd2kg.evaluation.report.latex import escape_latex, format_latex
 from usd2kg.evaluation.report.markdown import escape_markdown, format_markdown
 
 EVIL = "<script>alert(1)</script>|\n"
+ABLATION = {("first", "semantic"): FIRST, ("first", "geometry only"): SECOND, ("first", "name only"): SECOND}
 EVIL_CLASS = "a|`b`$x$<b>&amp;\\_%[c](d)\x1b"
 
 
@@ -79,6 +80,12 @@ def plain_report(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 
 @pytest.fixture(scope="module")
+def report_of_two(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """The folder of a report on two scenes, without PNG and PDF."""
+    return write_once([tiny(ABLATION), tiny()], "A title", tmp_path_factory)
+
+
+@pytest.fixture(scope="module")
 def hostile_report(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """The folder of a report on the scene with hostile names, without PNG and PDF."""
     return write_once([evil()], EVIL, tmp_path_factory)
@@ -94,16 +101,16 @@ def write_once(results: list[SceneResult], title: str, folders: pytest.TempPathF
 
 class TestFiles:
     @pytest.mark.usefixtures("svg_only")  # test_report_plots compares the others
-    def test_output_is_deterministic(self, tmp_path: Path):
-        runs = {("first", "semantic"): FIRST, ("first", "geometry only"): SECOND, ("first", "name only"): SECOND}
-        first = write_report([tiny(runs), tiny()], "A title", tmp_path / "a")
-        second = write_report([tiny(runs), tiny()], "A title", tmp_path / "b")
-        assert [path.read_bytes() for path in first] == [path.read_bytes() for path in second]
+    def test_output_is_deterministic(self, report_of_two: Path, tmp_path: Path):
+        again = write_report([tiny(ABLATION), tiny()], "A title", tmp_path)
+        assert [(report_of_two / path.relative_to(tmp_path)).read_bytes() for path in again] == [
+            path.read_bytes() for path in again
+        ]
 
     @pytest.mark.usefixtures("svg_only")
-    def test_run_times_only_affect_the_timing_table(self, tmp_path: Path):
-        first = write_report([tiny(seconds=0.4)], "A title", tmp_path / "a")
-        second = write_report([tiny(seconds=44.0)], "A title", tmp_path / "b")
+    def test_run_times_only_affect_the_timing_table(self, plain_report: Path, tmp_path: Path):
+        second = write_report([tiny(seconds=44.0)], "A title", tmp_path)
+        first = [plain_report / path.relative_to(tmp_path) for path in second]
         differing = {a.name for a, b in zip(first, second, strict=True) if a.read_bytes() != b.read_bytes()}
         assert differing <= {
             "report.md",
@@ -248,10 +255,9 @@ class TestHtml:
         assert printable(f"/W/{EVIL}") in page.text
         assert "b" not in page.tags
 
-    def test_plots_have_unique_ids(self, tmp_path: Path):
+    def test_plots_have_unique_ids(self, report_of_two: Path):
         pytest.importorskip("matplotlib")
-        write_report([tiny(), tiny()], "A title", tmp_path)
-        page = read_page((tmp_path / "report.html").read_text("utf-8"))
+        page = read_page((report_of_two / "report.html").read_text("utf-8"))
         assert len(page.ids) == len(set(page.ids))
         targets = {value[1:] for key, value in page.attributes if key.endswith("href") and value}
         assert targets <= set(page.ids)
