@@ -10,12 +10,15 @@ from pathlib import Path
 
 import pytest
 from _pytest.doctest import DoctestModule
+from hypothesis import is_hypothesis_test, settings
 
 from tests.scene.usda import METRES
 from usd2kg.ontology import TBox, load_home_tbox
 from usd2kg.scene import Scene, read_scene
 from usd2kg.table_cache import TABLE_CACHE_VARIABLE
 
+_SETTINGS = "_hypothesis_internal_use_settings"
+"""Attribute by which Hypothesis keeps the settings of a test."""
 SHARED = Path(os.environ.get("USD2KG_SHARED", Path(__file__).parents[2] / "shared"))
 """Real scenes and ontologies with gold labels; they may not be redistributed with the project."""
 
@@ -35,6 +38,15 @@ def pytest_configure(config: pytest.Config) -> None:
         folder = tempfile.mkdtemp(prefix="usd2kg-tables-")
         config.add_cleanup(lambda: shutil.rmtree(folder))
         os.environ[TABLE_CACHE_VARIABLE] = folder
+
+
+def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
+    """Multiply the examples of property-based tests by the environment variable `USD2KG_EXAMPLES`."""
+    factor = int(os.environ.get("USD2KG_EXAMPLES", "1"))
+    tests = [getattr(item, "obj", None) for item in items if factor > 1]
+    for test in {getattr(test, "__func__", test) for test in tests if is_hypothesis_test(test)}:
+        of_test = getattr(test, _SETTINGS, settings())
+        setattr(test, _SETTINGS, settings(of_test, max_examples=factor * of_test.max_examples))
 
 
 def pytest_collection_finish() -> None:

@@ -232,7 +232,7 @@ def transliterated(row):
     return without_accents(word)
 
 
-@settings(max_examples=100, deadline=None)
+@settings(max_examples=40, deadline=None)
 @given(st.sampled_from(GERMAN_NOUNS), st.sampled_from(["", "s", "n", "en", "e"]), st.sampled_from(GERMAN_NOUNS))
 def test_parts_of_a_german_compound_join_to_the_compound(first, link, second):
     compound = first + link + second
@@ -248,7 +248,7 @@ def test_parts_of_a_german_compound_join_to_the_compound(first, link, second):
     assert translate((compound,)) is not None
 
 
-@settings(max_examples=100, deadline=None)
+@settings(max_examples=40, deadline=None)
 @given(st.lists(st.text(max_size=20), max_size=4), st.sampled_from([None, "de", "es", "fr", "it"]))
 def test_any_words_are_translated_or_not_without_error(words, language):
     translated = translate(tuple(words), language)
@@ -257,7 +257,7 @@ def test_any_words_are_translated_or_not_without_error(words, language):
         assert split_compound(word) == (word,) or all(split_compound(word))
 
 
-@settings(max_examples=100, deadline=None)
+@settings(max_examples=40, deadline=None)
 @given(st.sampled_from(GERMAN_NOUNS))
 def test_composed_decomposed_and_transliterated_umlauts_are_equal(word):
     spelled = word.replace("ä", "ae").replace("ö", "oe").replace("ü", "ue").replace("ß", "ss")

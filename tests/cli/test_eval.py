@@ -7,6 +7,8 @@ from pathlib import Path
 
 import pytest
 
+from tests.evaluation.conftest import omit_png_and_pdf
+
 GOLD = "path,class,also\n/Room/Table_1,Table,\n/Room/coffee_mug,Bowl,Cup\n/Room/Nowhere,Sofa,\n"
 
 
@@ -124,7 +126,8 @@ def test_agreement_of_two_annotators(run, gold: Path, tmp_path: Path) -> None:
     assert "Cohen's kappa" in text
 
 
-def test_reproduce_writes_reports_and_resumes(run, room: Path, gold: Path, tmp_path: Path) -> None:
+def test_reproduce_writes_reports_and_resumes(run, room: Path, gold: Path, tmp_path: Path, monkeypatch) -> None:
+    omit_png_and_pdf(monkeypatch)
     matrix = tmp_path / "matrix.toml"
     matrix.write_text(
         f'title = "one room"\ngrounders = ["lexical", "dictionary"]\nregimes = ["semantic", "opaque"]\n'

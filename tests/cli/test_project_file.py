@@ -311,18 +311,18 @@ def test_a_scene_is_built_with_the_options_of_its_project(run: Run, room: Path):
     assert load_graph(Path("g.ttl")).sparql("ASK { <https://my.lab/k/Room.Table_1> a [] }").rows == (("true",),)
 
 
-def test_every_command_takes_the_options_of_a_full_project(run: Run, room: Path):
+def test_every_command_takes_the_options_of_a_full_project(run: Run, room: Path, lab: Path):
     folder = room.parent
-    assert run("ontology", "align", "-o", folder / "align.csv").code == 0
-    (folder / "decisions.csv").write_text("path,decision\n/Room/coffee_mug,Bowl\n", encoding="utf-8")
+    assert run("ontology", "align", lab, "-o", folder / "align.csv").code == 0
+    (folder / "decisions.csv").write_text("path,decision\n/Room/coffee_mug,Vessel\n", encoding="utf-8")
     for name in ("relations.toml", "plausibility.toml"):
         (folder / name).write_text("", encoding="utf-8")
     write(
         'abstain = true\nalignment = "align.csv"\nannotations = "owl"\nbase = "https://my.lab/k/"\n'
         'decisions = "decisions.csv"\nreviewer = "Ann"\nevidence = "name,geometry"\nevery-prim = false\n'
         'exclude = ["/Room/Apple"]\nexpand-instancers = true\nkind = ["component"]\nmetres-per-unit = 1\n'
-        'profile = "soma"\nregime = "semantic"\nrelations = "relations.toml"\nrelation-kinds = "on,inside"\n'
-        'rules = "plausibility.toml"\ntime = 1\nup-axis = "Z"\nviewpoint = "0,0,1.6"\n',
+        'ontology = "lab.ttl"\nprofile = "soma"\nregime = "semantic"\nrelations = "relations.toml"\n'
+        'relation-kinds = "on,inside"\nrules = "plausibility.toml"\ntime = 1\nup-axis = "Z"\nviewpoint = "0,0,1.6"\n',
         folder,
     )
     for command in (

@@ -242,11 +242,22 @@ def test_errors_of_the_command(kitchen, tmp_path, arguments, error, message):
     assert message in str(result.exception)
 
 
-@pytest.mark.parametrize("mode", ["class", "concept", "confidence", "room", "support"])
+def is_slow(*modes):
+    return [pytest.param(mode, marks=pytest.mark.slow) for mode in modes]
+
+
+@pytest.mark.parametrize("mode", ["class", "room", *is_slow("concept", "confidence", "support")])
 def test_real_scenes_have_the_colours_of_their_legend(tmp_path, mode):
-    house = shared_file("scenes/aws_robomaker/small_house.usdc")
-    target = tmp_path / "house.png"
-    assert invoke(house, "-o", target, "--color-by", mode, "--size", "320x240").exit_code == 0
+    check_legend(shared_file("scenes/aws_robomaker/small_house.usdc"), tmp_path / "house.png", mode)
+
+
+@pytest.mark.parametrize("mode", ["concept", "confidence", "support"])
+def test_a_small_scene_has_the_colours_of_its_legend(kitchen, tmp_path, mode):
+    check_legend(kitchen, tmp_path / "kitchen.png", mode)
+
+
+def check_legend(scene, target, mode):
+    assert invoke(scene, "-o", target, "--color-by", mode, "--size", "320x240").exit_code == 0
     pixels = pixels_of(target.read_bytes())
     first = CONFIDENCE.colors[0] if mode == "confidence" else COLORS.categories[0]
     if mode != "room":

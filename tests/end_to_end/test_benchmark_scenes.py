@@ -1,7 +1,6 @@
 """The benchmark scenes: scripts, stages and gold labels agree. The flat is a blind test: nothing here grounds it."""
 
 import csv
-import subprocess
 import sys
 from collections import Counter
 from dataclasses import dataclass
@@ -11,6 +10,7 @@ from pathlib import Path
 
 import pytest
 
+from scenes.__main__ import main as write_scenes
 from scenes.flat.forms import PROFILES, make_parts, merge_parts
 from tests.conftest import shared_file
 from usd2kg.scene import Scene, SceneObject, read_scene
@@ -50,8 +50,9 @@ every_scene = pytest.mark.parametrize("benchmark", [OFFICE, WAREHOUSE, FLAT], id
 
 
 @every_scene
-def test_scripts_write_the_committed_scene(benchmark: Benchmark, tmp_path: Path) -> None:
-    subprocess.run([sys.executable, "-m", "scenes", benchmark.name, "--out", str(tmp_path)], check=True, cwd=ROOT)
+def test_scripts_write_the_committed_scene(benchmark: Benchmark, tmp_path: Path, monkeypatch) -> None:
+    monkeypatch.setattr(sys, "argv", ["scenes", benchmark.name, "--out", str(tmp_path)])
+    write_scenes()
     committed, made = (
         {str(path.relative_to(folder)): path.read_bytes() for path in folder.rglob("*") if path.is_file()}
         for folder in (benchmark.folder, tmp_path)

@@ -61,7 +61,7 @@ def test_accepts_hash_and_urn_bases():
     assert prim_path_of("urn:lab:", individual_iri("urn:lab:", "/World/Cup")) == "/World/Cup"
 
 
-@settings(deadline=None, max_examples=500)
+@settings(deadline=None, max_examples=200)
 @given(ANY_PATHS, PARTS)
 def test_iris_are_reversible(path: str, part: str):
     assert prim_path_of(BASE, individual_iri(BASE, path)) == path
@@ -80,7 +80,7 @@ def test_stage_nodes_do_not_clash_with_objects():
     assert individual_iri(BASE, "/", "stage") == "https://my.lab/k/-stage"
 
 
-@settings(deadline=None, max_examples=500)
+@settings(deadline=None, max_examples=200)
 @given(ANY_PATHS, ANY_PATHS, PARTS, PARTS)
 def test_iris_are_injective(first: str, second: str, part: str, other: str):
     iris = [
@@ -91,7 +91,7 @@ def test_iris_are_injective(first: str, second: str, part: str, other: str):
     assert len(iris) == len(set(iris))
 
 
-@settings(deadline=None, max_examples=300)
+@settings(deadline=None, max_examples=150)
 @given(ANY_PATHS, PARTS)
 def test_iris_are_valid_and_round_trip(path: str, part: str):
     for iri in (individual_iri(BASE, path), individual_iri(BASE, path, part)):

@@ -89,8 +89,9 @@ def test_a_file_states_places_by_its_text(tmp_path: Path, name: str):
 
 def test_decisions_with_classes_of_places_are_kept_in_a_home():
     forklift = PLACES.resolve("Forklift")
-    path = "/KitchenDining/diningArea/diningTable"
-    built = build(kitchen_scene(), decisions={path: forklift})
+    path = f"/World/{HOME[0]}"
+    built = build(scene_of(HOME), decisions={path: forklift})
+    assert built.tbox is PLACES
     assert built.grounding.by_path[path].class_iri == forklift
 
 
@@ -147,4 +148,4 @@ def test_a_self_contained_graph_has_the_classes_of_places():
 
 
 def test_build_uses_the_named_tbox():
-    assert build(kitchen_scene(), "places").tbox is PLACES
+    assert build(scene_of(HOME), "places").tbox is PLACES

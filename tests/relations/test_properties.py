@@ -82,14 +82,14 @@ def turned(room: list[Placed], quarters: int) -> list[Placed]:
     return [(with_box(obj, turn), cls) for obj, cls in room]
 
 
-@settings(deadline=None, max_examples=40)
+@settings(deadline=None, max_examples=20)
 @given(rooms(), st.tuples(*[st.integers(-4096, 4096)] * 3))
 def test_translating_a_room_preserves_relations(room: list[Placed], steps: tuple[int, int, int]):
     x, y, z = (GRID * step for step in steps)
     assert everything(moved(room, (x, y, z))) == everything(room)
 
 
-@settings(deadline=None, max_examples=40)
+@settings(deadline=None, max_examples=20)
 @given(rooms(), st.integers(1, 3))
 def test_rotating_room_and_viewer_by_right_angles_preserves_relations(room: list[Placed], quarters: int):
     (x, y, _), dx, dy = VIEW.position, 1.0, 2.0
@@ -103,7 +103,7 @@ def test_rotating_room_and_viewer_by_right_angles_preserves_relations(room: list
         assert after[key].confidence == pytest.approx(relation.confidence) if relation.confidence is not None else True
 
 
-@settings(deadline=None, max_examples=40)
+@settings(deadline=None, max_examples=20)
 @given(rooms(), st.randoms(use_true_random=False))
 def test_the_order_of_objects_does_not_matter(room: list[Placed], random):
     shuffled = random.sample(room, len(room))
@@ -113,7 +113,7 @@ def test_the_order_of_objects_does_not_matter(room: list[Placed], random):
         assert after[key].numbers == pytest.approx(relation.numbers)
 
 
-@settings(deadline=None, max_examples=40)
+@settings(deadline=None, max_examples=20)
 @given(rooms())
 def test_relations_are_sorted_by_target_without_duplicates(room: list[Placed]):
     relations = everything(room)
@@ -126,7 +126,7 @@ def test_relations_are_sorted_by_target_without_duplicates(room: list[Placed]):
             assert place[r.target] < place[r.anchor]
 
 
-@settings(deadline=None, max_examples=40)
+@settings(deadline=None, max_examples=20)
 @given(rooms())
 def test_directed_relations_are_asymmetric(room: list[Placed]):
     relations = everything(room)
@@ -148,7 +148,7 @@ def test_directed_relations_are_asymmetric(room: list[Placed]):
             assert (opposite[kind], anchor, target) in found
 
 
-@settings(deadline=None, max_examples=40)
+@settings(deadline=None, max_examples=20)
 @given(rooms())
 def test_each_object_has_one_supporter_and_container_without_cycles(room: list[Placed]):
     up: dict[str, dict[str, list[str]]] = {"on": {}, "inside": {}, "room": {}}
@@ -164,7 +164,7 @@ def test_each_object_has_one_supporter_and_container_without_cycles(room: list[P
                 assert steps <= len(room)
 
 
-@settings(deadline=None, max_examples=40)
+@settings(deadline=None, max_examples=20)
 @given(rooms())
 def test_measurements_match_the_boxes(room: list[Placed]):
     boxes = {obj.prim_path: obj.own_box for obj, _ in room}
@@ -191,7 +191,7 @@ def test_measurements_match_the_boxes(room: list[Placed]):
             assert 0 <= r.numbers["margin"] <= 1.5
 
 
-@settings(deadline=None, max_examples=40)
+@settings(deadline=None, max_examples=20)
 @given(rooms())
 def test_stronger_relations_suppress_weaker_ones(room: list[Placed]):
     relations = everything(room)
@@ -202,7 +202,7 @@ def test_stronger_relations_suppress_weaker_ones(room: list[Placed]):
     assert not near & {frozenset((r.target, r.anchor)) for r in relations if r.kind in {"touching", "next-to"}}
 
 
-@settings(deadline=None, max_examples=40)
+@settings(deadline=None, max_examples=8)
 @given(rooms())
 def test_kinds_are_independent(room: list[Placed]):
     whole = everything(room)
@@ -211,7 +211,7 @@ def test_kinds_are_independent(room: list[Placed]):
             assert relate(*room, kinds=(kind,)) == tuple(r for r in whole if r.kind == kind)
 
 
-@settings(deadline=None, max_examples=40)
+@settings(deadline=None, max_examples=20)
 @given(st.tuples(*[st.floats(-1000, 1000)] * 3))
 def test_translation_by_any_length_preserves_relations(by: Corner):
     room: list[Placed] = [
@@ -247,7 +247,7 @@ def spun(objects: list[tuple[Corner, float, Corner]], angle: float) -> list[Plac
     return placed
 
 
-@settings(deadline=None, max_examples=40)
+@settings(deadline=None, max_examples=20)
 @given(
     st.lists(
         st.tuples(st.integers(0, 12), st.integers(0, 12), st.integers(0, 11), st.integers(1, 6), st.integers(1, 6)),

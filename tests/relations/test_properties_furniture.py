@@ -49,14 +49,14 @@ def _known(room: list[Placed], levels: dict[str, Box]) -> list[tuple[SceneObject
     return [(obj, levels[obj.prim_path]) for obj, _ in room if obj.prim_path in levels]
 
 
-@settings(deadline=None, max_examples=40)
+@settings(deadline=None, max_examples=20)
 @given(furnished(), st.tuples(*[st.integers(-512, 512)] * 3))
 def test_translating_a_furnished_room_preserves_relations(room: list[Placed], steps: tuple[int, int, int]):
     x, y, z = (GRID * step for step in steps)
     assert everything(with_boards_along(room, lambda placed: moved(placed, (x, y, z)))) == everything(room)
 
 
-@settings(deadline=None, max_examples=40)
+@settings(deadline=None, max_examples=20)
 @given(furnished(), st.integers(1, 3))
 def test_rotating_a_furnished_room_preserves_relations(room: list[Placed], quarters: int):
     there = relate(*with_boards_along(room, lambda placed: turned(placed, quarters)), kinds=KINDS)
@@ -64,7 +64,7 @@ def test_rotating_a_furnished_room_preserves_relations(room: list[Placed], quart
     assert by_statement(there).keys() == here.keys()
 
 
-@settings(deadline=None, max_examples=40)
+@settings(deadline=None, max_examples=20)
 @given(furnished())
 def test_on_and_inside_are_asymmetric(room: list[Placed]):
     found = {(r.kind, r.target, r.anchor) for r in everything(room)}
@@ -73,7 +73,7 @@ def test_on_and_inside_are_asymmetric(room: list[Placed]):
             assert not {("on", anchor, target), ("inside", anchor, target)} & found
 
 
-@settings(deadline=None, max_examples=40)
+@settings(deadline=None, max_examples=20)
 @given(st.lists(st.tuples(*[st.integers(-8, 64)] * 3, *[st.integers(1, 64)] * 3), min_size=2, max_size=5))
 def test_no_whole_is_inside_its_part_and_no_drawer_inside_another(boxes: list[tuple[int, ...]]):
     cabinet: Placed = (thing("/cab", (0, 0, 0), (1, 1, 1)), "KitchenCabinet")

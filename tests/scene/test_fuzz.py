@@ -42,10 +42,10 @@ def check(tally: Tally, capsys):
 
 
 def test_mangled_stages(capsys):
-    tally = fuzz(itertools.islice(make_cases(CORPUS, seed=1), 250))
-    assert sum(tally.outcomes.values()) == 250
+    tally = fuzz(itertools.islice(make_cases(CORPUS, seed=1), 120))
+    assert sum(tally.outcomes.values()) == 120
     # Most mutations are small enough to leave a readable stage.
-    assert tally.outcomes[Outcome.READ] > 75
+    assert tally.outcomes[Outcome.READ] > 36
     check(tally, capsys)
 
 
