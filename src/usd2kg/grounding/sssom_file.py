@@ -162,7 +162,8 @@ def one_line(text: str) -> str:
 
 
 def _printable_line(text: str) -> str:
-    return "".join(c if c.isprintable() else "\ufffd" for c in re.sub(r"\s+", " ", text).strip())
+    line = " ".join(text.split())
+    return line if line.isprintable() else "".join(c if c.isprintable() else "\ufffd" for c in line)
 
 
 def format_sssom_file(
