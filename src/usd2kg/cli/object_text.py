@@ -4,6 +4,8 @@ import math
 from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING
 
+from usd2kg.prim_paths import nearest_in
+
 if TYPE_CHECKING:
     from usd2kg.scene import Box, Joint, Label, MaterialDetails, Scene, SceneObject, ShapeDescriptors
 
@@ -112,21 +114,14 @@ def _label_text(label: "Label", obj: "SceneObject") -> str:
 
 def jointed_objects(joint: "Joint", scene: "Scene") -> set[str]:
     """Return the paths of the objects that a joint connects."""
-    return {owner for body in (joint.body0, joint.body1) if (owner := _owner(body, scene)) is not None}
-
-
-def _owner(path: str | None, scene: "Scene") -> str | None:
-    """Return the object that a body is or belongs to."""
-    while path and path not in scene.by_path:
-        path = path.rpartition("/")[0]
-    return path or None
+    return {owner for body in (joint.body0, joint.body1) if (owner := nearest_in(body, scene.by_path)) is not None}
 
 
 def joint_rows(joints: "Sequence[Joint]", path: str, scene: "Scene") -> Rows:
     """Yield a row for each joint, from the perspective of the object at `path`."""
 
     def name(body: str | None) -> str:
-        if body is None or _owner(body, scene) != path:
+        if body is None or nearest_in(body, scene.by_path) != path:
             return body or "the world"
         return "it" if body == path else f"its {body.rpartition('/')[2]}"
 

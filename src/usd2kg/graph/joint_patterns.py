@@ -12,6 +12,7 @@ import pyoxigraph as ox
 from usd2kg.graph.iris import individual_iri
 from usd2kg.graph.physical_properties import aspect_node, declare_individual
 from usd2kg.graph.vocabulary import RDF, RDFS, SOMA, U2K, XSD, Triple, number, text, vector_text
+from usd2kg.prim_paths import nearest_in
 from usd2kg.scene import Joint, Scene
 
 __all__ = ["JointIndividual", "plain_joint", "resolve_joints", "soma_joint"]
@@ -42,18 +43,12 @@ class JointIndividual(NamedTuple):
 def resolve_joints(scene: Scene, base: str) -> Iterator[JointIndividual]:
     """Yield the joints of a scene in order; a body belongs to the nearest object at or above it."""
     for joint in scene.joints:
-        parent, child = (_owner(body, scene) for body in (joint.body0, joint.body1))
+        parent, child = (nearest_in(body, scene.by_path) for body in (joint.body0, joint.body1))
         whole = parent if parent == child else None
         if whole is not None:
             parent = child = None
         nodes = (ox.NamedNode(individual_iri(base, path)) if path else None for path in (parent, child, whole))
         yield JointIndividual(joint, ox.NamedNode(individual_iri(base, joint.prim_path, "joint")), *nodes)
-
-
-def _owner(body: str | None, scene: Scene) -> str | None:
-    while body and body not in scene.by_path:
-        body = body.rpartition("/")[0]
-    return body or None
 
 
 def plain_joint(linked: JointIndividual) -> Iterator[Triple]:

@@ -6,6 +6,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from usd2kg.prim_paths import nearest_in
 from usd2kg.relations.array_records import first_of_each_group, rounded
 from usd2kg.relations.boxed_objects import BoxedObjects, ClassMembership
 from usd2kg.relations.distances import box_gaps
@@ -107,9 +108,8 @@ def _joint_ends(joint: Joint, number: dict[str, int]) -> tuple[int, int] | None:
 
 def _object_at(path: str, number: dict[str, int]) -> int | None:
     """Return the index of the object at or above a prim."""
-    while path and path not in number:
-        path = path.rpartition("/")[0]
-    return number.get(path)
+    found = nearest_in(path, number)
+    return None if found is None else number[found]
 
 
 def _fitted(scene: Scene, boxed: BoxedObjects, classes: ClassMembership, is_free: Mask, rule: PartOfRule) -> Links:

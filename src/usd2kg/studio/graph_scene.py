@@ -16,6 +16,7 @@ from usd2kg.graph.literal_numbers import parse_numbers
 from usd2kg.graph.rdf_document import read_statements
 from usd2kg.graph.vocabulary import OWL, RDF, RDFS, U2K, USD
 from usd2kg.grounding import Grounding
+from usd2kg.prim_paths import nearest_in
 from usd2kg.relations import Relation
 from usd2kg.scene import Box, ObjectLabels, Scene, SceneObject, StageFrame
 from usd2kg.scene.model import Encoding, Label
@@ -153,10 +154,7 @@ def _box(stated: ObjectState) -> Box | None:
 
 def _parent_in(paths: set[str], prim_path: str) -> str | None:
     """Return the nearest path above an object that is an object, too."""
-    above = prim_path.rpartition("/")[0]
-    while above and above not in paths:
-        above = above.rpartition("/")[0]
-    return above or None
+    return nearest_in(prim_path.rpartition("/")[0], paths)
 
 
 def _color(index: GraphIndex, node: ox.NamedNode) -> Vector | None:

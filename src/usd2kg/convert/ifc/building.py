@@ -15,6 +15,7 @@ from usd2kg.convert.ifc.tessellation import NOT_PHYSICAL, Shape, instances_of, t
 from usd2kg.convert.materials import MaterialAuthor, SurfaceMaterial
 from usd2kg.convert.origin import SOURCE_ID
 from usd2kg.convert.prims import PrimAuthor, custom_data, new_stage
+from usd2kg.prim_paths import nearest_in
 
 __all__ = ["read_prims"]
 
@@ -183,11 +184,9 @@ class _BuildingWriter:
 
     def _write_mesh(self, prim: Usd.Prim, shape: Shape) -> Usd.Prim:
         path = str(prim.GetPath())
-        above = path.rpartition("/")[0]
-        while above and above not in self._worlds:
-            above = above.rpartition("/")[0]
+        above = nearest_in(path.rpartition("/")[0], self._worlds)
+        outer = None if above is None else self._worlds[above]
         world = self._worlds[path] = shape.matrix
-        outer = self._worlds.get(above)
         self._author.move(prim, world if outer is None else np.linalg.inv(outer) @ world)
         return self._author.define_mesh(path, "body", shape.mesh)
 
