@@ -3,6 +3,7 @@
 A block is run by its language. A `title` in its first line is the name of the file that it shows, and is written first.
 A line `*Not run by the tests: REASON.*` above a block says why it is not run, and `*Run by the tests if NAME is
 installed.*` names a program or module that it needs. A server is started, waited for, and stopped as by Ctrl+C.
+`http://localhost:7878` is a store on a server: an empty one of Oxigraph, for each page.
 """
 
 import doctest
@@ -18,7 +19,8 @@ import textwrap
 import threading
 import tomllib
 from collections import Counter
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager, nullcontext
 from importlib.util import find_spec
 from pathlib import Path
 from typing import Any, NamedTuple
@@ -27,6 +29,7 @@ import pyoxigraph as ox
 import pytest
 import yaml
 
+from tests.stores.servers import oxigraph
 from usd2kg.graph.vocabulary import PREFIXES
 from usd2kg.query import load_graph
 
@@ -46,6 +49,8 @@ _FINDING = re.compile(r"usd2kg (validate|diff|label lint|ontology check)\b")
 _SERVER = re.compile(r"usd2kg (serve|studio)\b")
 """Commands that run until Ctrl+C."""
 _SERVER_LIMIT_S = 120.0
+_STORE = "http://localhost:7878"
+"""Address of a store in commands of a page."""
 _INSTALL = re.compile(r"pip install 'usd2kg\[([\w,]+)\]'")
 """Commands that the documentation shows for installing extras."""
 
@@ -124,17 +129,31 @@ def run_page(page: Path, folder: Path) -> Counter[str]:
         done = doctest.testfile(str(page), module_relative=False, optionflags=flags, encoding="utf-8")
         assert done.attempted > 0
         assert done.failed == 0
-    return Counter(
-        "marked" if block.reason or _is_missing(block.needs) else run_block(block, folder) for block in blocks
-    )
+    is_stored = any(_STORE in block.text for block in blocks if block.is_console and not block.reason)
+    with _store_server(folder) if is_stored else nullcontext(_STORE) as store:
+        return Counter(
+            "marked" if block.reason or _is_missing(block.needs) else run_block(block, folder, store)
+            for block in blocks
+        )
+
+
+@contextmanager
+def _store_server(folder: Path) -> Iterator[str]:
+    """Run a server with an empty store beside the folder of a page, and return its address."""
+    beside = folder.parent / f"{folder.name}.store"
+    beside.mkdir()
+    with oxigraph(beside) as address:
+        yield address
 
 
 def _is_missing(name: str) -> bool:
     return bool(name) and shutil.which(name) is None and find_spec(name) is None
 
 
-def run_block(block: Block, folder: Path) -> str:
+def run_block(block: Block, folder: Path, store: str = _STORE) -> str:
     """Run a block in a folder and return what was done: `run`, `read` if only its syntax counts, or `shown`.
+
+    `store` is the address that replaces `http://localhost:7878` in its commands.
 
     Raises:
         AssertionError: the block fails, prints something else than the page shows, or cannot be read.
@@ -145,7 +164,7 @@ def run_block(block: Block, folder: Path) -> str:
         path.write_text(block.text, "utf-8")
     if block.is_console:
         for command in read_commands(block):
-            _run_console(command, folder)
+            _run_console(command._replace(line=command.line.replace(_STORE, store)), folder)
         return "run"
     if block.language == "python":
         _check(subprocess.run([sys.executable, "-c", block.text], check=False, **_options(folder)))
