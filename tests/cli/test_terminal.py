@@ -103,3 +103,15 @@ def test_a_name_cannot_colour_the_terminal():
         assert "\x1b[31m" not in format_table(("name",), [("\x1b[31mred",), ("b",)])
         notify("\x1b[31mred")
     assert "\x1b" not in screen.getvalue()
+
+
+def test_shortens_no_number_and_leaves_out_what_a_table_can_do_without():
+    rows = [["/Room/" + "x" * 40, "0.05 × 0.89 × 2.04", "-2.75 0.70 0.00", "m" * 30], ["/Room/Cup", "", "", "Clay"]]
+    cells = [["path", "size m", "position m", "materials"], *rows]
+    table, below = fit_columns(cells, 80)
+    assert [row[1:3] for row in table] == [row[1:3] for row in cells]
+    assert below == []
+    table, below = fit_columns(cells, 80, ["materials"])
+    assert [row[1:] for row in table] == [row[1:3] for row in cells]
+    assert below == ["left out for the width of the terminal: materials"]
+    assert fit_columns(cells, 120, ["materials"]) == (cells, [])

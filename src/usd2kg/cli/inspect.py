@@ -160,7 +160,7 @@ def _scene_text(scene: "Scene", shapes: "Mapping[str, ShapeDescriptors] | None")
     lines = [replace_controls(line) for line in lines]
     if scene.diagnostics:
         lines += ["\n", format_table(("diagnostic", "where", "message"), list(_diagnostic_rows(scene.diagnostics)))]
-    return format_table(columns, rows) + "".join(lines)
+    return format_table(columns, rows, dispensable=("materials", "parts")) + "".join(lines)
 
 
 def _object_cells(obj: "SceneObject") -> list[str | None]:

@@ -8,6 +8,7 @@ __all__ = [
     "NAMES_PER_CELL",
     "NARROWEST_COLUMN",
     "PATHS_PER_REASON",
+    "READABLE_COLUMN",
     "SIMILAR_DIAGNOSTICS",
     "SUGGESTIONS",
 ]
@@ -30,3 +31,5 @@ DEMO_ROWS = 12
 """Rows of each answer that `demo` shows."""
 NARROWEST_COLUMN = 12
 """Characters to which a column of a table that is wider than the terminal is cut at most."""
+READABLE_COLUMN = 24
+"""Characters to which a column is cut at most before columns that a table can do without are left out."""
