@@ -28,8 +28,9 @@ test: $(READY) ## Run the tests
 test-slow: $(READY) ## Run the slow tests
 	$(BIN)/python -m pytest -q -m slow
 
-test-docs: $(READY) ## Run the code blocks of the documentation
+test-docs: $(READY) ## Run the code blocks of the documentation; list those that are not run, with the reasons
 	$(BIN)/python -m pytest -q -n auto --dist load -m docs tests
+	$(BIN)/python -m tests.doc_counts
 
 build/converters/.ready: requirements/converters.txt requirements/robots.txt
 	$(PYTHON) -m venv build/converters

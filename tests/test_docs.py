@@ -7,7 +7,8 @@ import pytest
 
 import usd2kg
 from tests.doc_console import read_blocks
-from tests.doc_pages import GENERATED, GUIDES, PAGES, ROOT, all_pages
+from tests.doc_counts import count_blocks
+from tests.doc_pages import GENERATED, ROOT, all_pages
 
 
 @pytest.mark.parametrize("page", ["cli", "questions", "vocabulary"])
@@ -22,21 +23,11 @@ def test_readme_shows_how_to_start(command: str) -> None:
 
 
 def test_every_code_block_is_run_or_says_why_not() -> None:
-    covered = {*PAGES, *GUIDES, *GENERATED}
-    blocks = {page: read_blocks(ROOT / page) for page in all_pages()}
-    of_programs = [
-        (page, block)
-        for page, found in blocks.items()
-        for block in found
-        if block.is_console or block.language in {"python", "pycon", "sparql", "toml"}
+    counts = count_blocks()
+    assert not counts.left, f"{counts}; neither: {', '.join(counts.left)}"
+    unread = [
+        f"{page}:{block.line}" for page in all_pages() for block in read_blocks(ROOT / page) if not block.language
     ]
-    run = [block for page, block in of_programs if page in covered and not block.reason]
-    marked = [block for _, block in of_programs if block.reason]
-    left = [f"{page}:{block.line}" for page, block in of_programs if page not in covered and not block.reason]
-    count = f"{len(run)} of {len(of_programs)} blocks are run, {len(marked)} say why they are not"
-    print(count)
-    assert len(run) + len(marked) == len(of_programs), f"{count}; neither: {', '.join(left)}"
-    unread = [f"{page}:{block.line}" for page, found in blocks.items() for block in found if not block.language]
     assert not unread, f"blocks without a language: {', '.join(unread)}"
 
 
