@@ -311,7 +311,7 @@ class TestOntology:
         assert "Equipment" in lines[0]
         assert lines[1].startswith(" ")
         assert "To work at." not in done.out
-        assert "3 classes in scope, 1 roots" in done.err
+        assert "3 classes in scope, 1 root" in done.err
         assert "To work at." in run("ontology", "show", lab, "--comments").out
 
     def test_shows_json(self, run: Run, lab: Path):

@@ -39,7 +39,7 @@ def write_crate(path):
 
 
 def test_missing_file_is_refused(tmp_path):
-    assert refusal(tmp_path / "nope.usda") == "no such file; expected a USD stage (.usd, .usda, .usdc, .usdz)"
+    assert refusal(tmp_path / "nope.glb").startswith("no such file; expected a scene (.usd, .usda, .usdc, .usdz, .glb,")
 
 
 def test_folder_is_refused(tmp_path):

@@ -3,6 +3,8 @@
 from collections import Counter
 from typing import TYPE_CHECKING, Any
 
+from usd2kg.cli.output import count_noun
+
 if TYPE_CHECKING:
     from usd2kg.pipeline import BuildResult
 
@@ -44,11 +46,12 @@ def summary_text(summary: dict[str, Any]) -> str:
     bands = ", ".join(f"{count} at {band}" for band, count in summary["confidence"].items() if count) or "none"
     status = ", ".join(f"{count} {name}" for name, count in summary["status"].items())
     calibration = "" if summary["is_calibrated"] else " (uncalibrated: a score, not a probability)"
+    objects, classes = count_noun(summary["objects"], "object"), count_noun(summary["classes"], "class")
     lines = [
-        f"{summary['scene']}: {summary['objects']} objects of {summary['classes']} classes ({status})",
+        f"{summary['scene']}: {objects} of {classes} ({status})",
         f"  confidence: {bands}{calibration}",
         f"  relations: {relations}; {summary['triples']} triples in {summary['seconds']:.2f} s",
     ]
     if summary["diagnostics"]:
-        lines.append(f"  {summary['diagnostics']} diagnostics: usd2kg inspect {summary['scene']}")
+        lines.append(f"  {count_noun(summary['diagnostics'], 'diagnostic')}: usd2kg inspect {summary['scene']}")
     return "\n".join([*lines, f"  written to {summary['output']}"])

@@ -265,7 +265,8 @@ def _load(file: Path | None, roots: list[str] | None) -> "TBox":
     with show_steps("ontology"):
         tbox = load_tbox(file, roots=root_iris) if file is not None else load_home_tbox(roots=root_iris)
     notify_notes(tbox)
-    notify(f"{tbox.source}: {len(tbox.classes)} classes in scope, {len(tbox.roots)} roots")
+    counts = f"{count_noun(len(tbox.classes), 'class')} in scope, {count_noun(len(tbox.roots), 'root')}"
+    notify(f"{tbox.source}: {counts}")
     return tbox
 
 

@@ -19,7 +19,6 @@ from pxr import Sdf, Tf, Usd, UsdGeom, UsdPhysics, UsdUtils
 
 from usd2kg.convert import (
     SCENE_ENDINGS,
-    STAGE_ENDINGS,
     Origin,
     SourceFormat,
     find_format,
@@ -214,7 +213,7 @@ def time_code(time: float | None) -> Usd.TimeCode:
 def _check_file(source: Path) -> SourceFormat | None:
     """Return the format of a file or folder that needs conversion; None for a USD file."""
     if not source.exists():
-        raise SceneError(f"{source}: no such file; expected a USD stage ({', '.join(STAGE_ENDINGS)})")
+        raise SceneError(f"{source}: no such file; expected a scene ({', '.join(SCENE_ENDINGS)})")
     if source.is_dir():
         return _check_folder(source)
     if source.stat().st_size == 0:
