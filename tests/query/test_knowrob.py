@@ -3,7 +3,7 @@
 import csv
 import shutil
 import subprocess
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from functools import cache
 from pathlib import Path
 
@@ -73,15 +73,62 @@ def graph(write: Write) -> PropertyGraph:
     return read_property_graph(read_document(write()))
 
 
-@cache
+class Prolog:
+    """A process of SWI-Prolog that has loaded a graph and answers questions about it."""
+
+    LOOP = (
+        "prompt(_, ''), repeat, read_line_to_string(user_input, Line), ( Line == end_of_file -> halt ;"
+        " split_string(Line, '\\t', '', Parts), maplist(atom_string, [Name|Words], Parts),"
+        " question(Name, Kinds, Goal, Fields), ask(Words, Kinds, Goal, Fields), writeln(end), flush_output, fail )"
+    )
+
+    def __init__(self, path: Path) -> None:
+        self._errors = path.with_name(f"{path.name}.stderr")
+        loaded = f"load('{path}'), {self.LOOP}"
+        with self._errors.open("wb") as errors:
+            self._process = subprocess.Popen(
+                ["swipl", "-l", str(QUESTIONS), "-g", loaded],
+                stdin=subprocess.PIPE,
+                stdout=subprocess.PIPE,
+                stderr=errors,
+                text=True,
+            )
+
+    def ask(self, question: tuple[str, ...]) -> Rows:
+        assert self._process.stdin is not None and self._process.stdout is not None
+        print(*question, sep="\t", file=self._process.stdin, flush=True)
+        lines = []
+        while (line := self._process.stdout.readline()) != "end\n":
+            assert line, self._errors.read_text("utf-8")
+            lines.append(line)
+        # The parser recovers from errors with a warning on stderr.
+        assert self._errors.read_text("utf-8") == ""
+        return [tuple(line.removesuffix("\n").split("\t")) for line in lines]
+
+    def close(self) -> None:
+        self._process.communicate(timeout=60)
+
+
+_RUNNING: dict[Path, Prolog] = {}
+
+
+@pytest.fixture(scope="module", autouse=True)
+def close_prolog() -> Iterator[None]:
+    yield
+    while _RUNNING:
+        _RUNNING.popitem()[1].close()
+
+
 def ask_prolog(path: Path, *question: str) -> Rows:
     """Return SWI-Prolog's answers to a question: rows of prim paths, names and numbers."""
-    done = subprocess.run(
-        ["swipl", str(QUESTIONS), str(path), *question], capture_output=True, text=True, check=True, timeout=120
-    )
-    # The parser recovers from errors with a warning on stderr.
-    assert done.stderr == ""
-    return [tuple(line.split("\t")) for line in done.stdout.splitlines()]
+    if path not in _RUNNING:
+        _RUNNING[path] = Prolog(path)
+    return _RUNNING[path].ask(question)
+
+
+def run_prolog(path: Path, *question: str) -> "subprocess.CompletedProcess[str]":
+    command = ["swipl", str(QUESTIONS), str(path), *question]
+    return subprocess.run(command, capture_output=True, text=True, check=False, timeout=120)
 
 
 def triples_of(path: Path) -> set[ox.Triple]:
@@ -106,6 +153,11 @@ class TestAuthoredKitchen:
     def test_every_object_has_an_answer(self, write: Write, question: str):
         rows = ask_prolog(write(), question)
         assert len(rows) == len({row[question == "transform"] for row in rows}) == 294
+
+    def test_the_command_line_prints_the_answers(self, write: Write):
+        done = run_prolog(write(), "where", BOWL)
+        assert (done.returncode, done.stderr) == (0, "")
+        assert [tuple(line.split("\t")) for line in done.stdout.splitlines()] == ask_prolog(write(), "where", BOWL)
 
     def test_depth_lies_along_x_and_width_along_y(self, write: Write, tmp_path: Path, home_tbox: TBox):
         # KnowRob: depth is the extent along x, width along y, height along z.
@@ -270,13 +322,7 @@ class TestQuestions:
             (["on", "unicorn"], "unicorn: neither an object nor a class in the graph"),
             (["sing"], "expected GRAPH... QUESTION [NAME...]"),
         ):
-            done = subprocess.run(
-                ["swipl", str(QUESTIONS), str(write()), *words],
-                capture_output=True,
-                text=True,
-                check=False,
-                timeout=120,
-            )
+            done = run_prolog(write(), *words)
             assert (done.returncode, said in done.stderr) == (1, True)
 
 
