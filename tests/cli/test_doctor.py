@@ -14,7 +14,8 @@ from usd2kg.cli import doctor
 KEY = "sk-planted-0123456789"
 
 
-def test_lists_versions_extras_and_caches(run: Run):
+def test_lists_versions_extras_and_caches(run: Run, monkeypatch: pytest.MonkeyPatch):
+    monkeypatch.setenv("USD2KG_TABLE_CACHE", "off")
     done = run("doctor", "--json")
     assert done.code == 0
     report = json.loads(done.out)

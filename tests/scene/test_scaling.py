@@ -43,7 +43,7 @@ def siblings(count):
 
 
 def test_calls_for_siblings_are_in_proportion():
-    assert growth(siblings, 1_000, 4_000) == IN_PROPORTION
+    assert growth(siblings, 500, 2_000) == IN_PROPORTION
 
 
 def nested(count, make=component):
@@ -129,7 +129,7 @@ def bytes_held(stage):
         tracemalloc.stop()
 
 
-def furniture(meshes, count=100):
+def furniture(meshes, count=40):
     things = [component(f"thing_{i}", *(cube(f"part_{j}", at=(j, i, 0)) for j in range(meshes))) for i in range(count)]
     return opened(xform("World", *things))
 
@@ -137,13 +137,13 @@ def furniture(meshes, count=100):
 def test_a_scene_holds_objects_and_not_prims():
     read_scene(furniture(2, count=2))  # exclude what is loaded once
     (few, small), (many, large) = bytes_held(furniture(2)), bytes_held(furniture(40))
-    assert (few.prim_count, many.prim_count) == (301, 4_101)
+    assert (few.prim_count, many.prim_count) == (121, 1_641)
     # A part has a name, a place in two tuples, and a box: two tuples of three floats and the record. That is
     # 56 + 2 * 8 + 2 * 64 + 6 * 24 + 48 = 392 bytes; its prim or outline node would be another 300. The surface of a
     # cube has 8 points and 12 triangles of 12 bytes each.
-    of_parts = 100 * 38 * (392 + 20 * 12)
+    of_parts = 40 * 38 * (392 + 20 * 12)
     assert 0.5 * of_parts < large - small < 1.25 * of_parts
-    assert small < 100 * 5_000
+    assert small < 40 * 5_000
 
 
 def test_no_outline_is_held_after_reading():
@@ -155,7 +155,7 @@ def test_no_outline_is_held_after_reading():
         assert not [thing for thing in gc.get_objects() if isinstance(thing, PrimRecord)]
     finally:
         gc.enable()
-    assert len(scene.objects) == 100
+    assert len(scene.objects) == 40
 
 
 # --- by the clock ------------------------------------------------------------------------------------
