@@ -76,6 +76,23 @@ def test_one_prompt_can_ask_about_several_objects(run: Run, kitchen: Path):
     assert set(classes(done.out).values()) == {"Cup"}
 
 
+def test_asks_once_about_a_concept_that_the_lexical_grounder_is_unsure_of(run: Run, write_stage):
+    names = ("mug_1", *(f"qzxv_{number}" for number in range(20)))
+    scene = write_stage(xform("Kitchen", *(component(name, cube("mesh", size=0.1)) for name in names)))
+    with serve(openai_reply(cup())) as server:
+        model = f"llm-concept:openai:test@{server.url}/v1"
+        done = run("ground", scene, "--grounder", model, "--cascade", "0.8", "--format", "json")
+        assert len(server.received) == 1, done.err
+        received = server.received[0]
+    prompt = received.body["messages"][-1]["content"]
+    assert len(re.findall(r'^names: "qzxv" \(\d\d times\)$', prompt, re.M)) == 1
+    assert "mug" not in prompt.partition("siblings")[0]
+    found = {p["prim_path"]: p for p in json.loads(done.out)["predictions"]}
+    assert found["/Kitchen/mug_1"]["grounder"] == "lexical"
+    assert {found[f"/Kitchen/qzxv_{n}"]["class_iri"].rpartition("#")[2] for n in range(20)} == {"Cup"}
+    assert " objects in 1 prompts: 1 new completions" in done.err
+
+
 def test_dry_run_prints_prompts_without_requests(run: Run, kitchen: Path):
     with serve(openai_reply(cup())) as server:
         done = run("ground", kitchen, "--grounder", f"llm-B:openai:test@{server.url}/v1", "--dry-run")
@@ -207,7 +224,7 @@ def test_reports_a_server_error_for_each_object(run: Run, kitchen: Path):
         (("--grounder", "llm-B:nobody:model"), "expected google:NAME, anthropic:NAME or openai:NAME"),
         (
             ("--grounder", "llm-D:openai:x@http://localhost:1/v1"),
-            "expected llm-A:MODEL, llm-B:MODEL, llm-C:MODEL or llm-auto:MODEL",
+            "expected llm-A:MODEL, llm-B:MODEL, llm-C:MODEL, llm-auto:MODEL or llm-concept:MODEL",
         ),
         (("--dry-run",), "--dry-run needs a language model; name one with --grounder"),
         (("--cascade", "0.5"), "--cascade needs a language model; name one with --grounder"),

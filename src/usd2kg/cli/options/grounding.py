@@ -38,7 +38,7 @@ class GroundingOptions(OptionBundle):
             "--grounder",
             help="Grounder: lexical, dictionary, embedding, volume, or a language model. llm-A:MODEL sends names, "
             "llm-B:MODEL context too, llm-C:MODEL asks for written reasoning first, llm-auto:MODEL chooses by each "
-            f"name. MODEL is {MODEL_NAMES}.",
+            f"name, llm-concept:MODEL asks once for objects that share a concept. MODEL is {MODEL_NAMES}.",
         ),
     ] = "lexical"
     dictionary: Annotated[

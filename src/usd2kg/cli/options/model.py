@@ -106,8 +106,13 @@ class ModelOptions(OptionBundle):
     """Prompts and sampling of a language model, and its requests."""
 
     objects_per_prompt: Annotated[
-        int, Option("--objects-per-prompt", min=1, help="Objects that one prompt asks about.")
-    ] = 1
+        int | None,
+        Option(
+            "--objects-per-prompt",
+            min=1,
+            help="Objects, or concepts, that one prompt asks about; default: 1, or 40 for llm-concept.",
+        ),
+    ] = None
     class_tree: Annotated[
         bool, Option("--class-tree", help="List the classes in the prompt as a tree instead of alphabetically.")
     ] = False

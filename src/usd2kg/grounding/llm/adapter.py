@@ -9,6 +9,7 @@ from urllib.parse import urlsplit
 from usd2kg.errors import GroundingError
 from usd2kg.grounding.llm.completion import Completion, Finish, Request, Usage
 from usd2kg.grounding.llm.estimates import estimate_input
+from usd2kg.grounding.llm.limits import LIMITS
 from usd2kg.grounding.llm.model_reference import ModelReference
 from usd2kg.grounding.llm.prompt_text import estimate_tokens
 
@@ -19,6 +20,7 @@ if TYPE_CHECKING:
 __all__ = [
     "accepts_temperature",
     "convert_response",
+    "define_rows_once",
     "json_object_format",
     "make_message",
     "make_parameters",
@@ -48,8 +50,22 @@ def make_parameters(
 
     is_enforced = provider_model.profile.get("supports_json_schema_output", False)
     # For OpenAI itself, the library determines whether strict mode accepts the schema.
-    answer = OutputObjectDefinition(dict(request.schema), name="answer", strict=True if is_openai_compatible else None)
+    schema = define_rows_once(request.schema)
+    answer = OutputObjectDefinition(schema, name="answer", strict=True if is_openai_compatible else None)
     return ModelRequestParameters(output_mode="native" if is_enforced else "prompted", output_object=answer)
+
+
+def define_rows_once(schema: Mapping[str, Any]) -> dict[str, Any]:
+    """Return an answer schema that defines its rows once if their enums have more values than OpenAI allows.
+
+    Otherwise the schema of each row stays in its place, which more servers understand.
+    """
+    rows = list(schema.get("properties", {}).values())
+    sizes = [len(value.get("enum", ())) for row in rows for value in row.get("properties", {}).values()]
+    if sum(sizes) <= LIMITS.max_enum_values or any(row != rows[0] for row in rows):
+        return dict(schema)
+    references = {number: {"$ref": "#/$defs/row"} for number in schema["properties"]}
+    return {**schema, "properties": references, "$defs": {"row": rows[0]}}
 
 
 def make_settings(

@@ -4,10 +4,11 @@ from collections.abc import Iterator
 from itertools import islice
 
 from usd2kg.grounding.context.views import ObjectView
+from usd2kg.grounding.llm.commands import quote_other
 from usd2kg.grounding.llm.prompt_options import PromptOptions, Strategy
 from usd2kg.grounding.llm.prompt_text import quote
 
-__all__ = ["describe_object"]
+__all__ = ["describe_object", "format_measure"]
 
 
 def describe_object(view: ObjectView, options: PromptOptions) -> Iterator[str]:
@@ -23,15 +24,15 @@ def _evidence(view: ObjectView, options: PromptOptions) -> Iterator[tuple[str, s
     if view.size is not None:
         # World coordinates are z-up, so the second axis is the depth.
         width, depth, height = view.size
-        yield "box (w, h, d) in metres", " x ".join(map(_number, (width, height, depth)))
+        yield "box (w, h, d) in metres", " x ".join(map(format_measure, (width, height, depth)))
     if view.mass_kg is not None:
-        yield "mass in kg", _number(view.mass_kg)
+        yield "mass in kg", format_measure(view.mass_kg)
     if view.position is not None:
-        yield "position (x, y, z) in metres", ", ".join(map(_number, view.position))
-    yield "parent path, outermost first", " / ".join(map(quote, view.parents))
+        yield "position (x, y, z) in metres", ", ".join(map(format_measure, view.position))
+    yield "parent path, outermost first", " / ".join(map(quote_other, view.parents))
     omitted = len(view.siblings) - options.max_siblings
     more = f" and {omitted} more" if omitted > 0 else ""
-    yield "siblings", ", ".join(map(quote, islice(view.siblings, options.max_siblings))) + more
+    yield "siblings", ", ".join(map(quote_other, islice(view.siblings, options.max_siblings))) + more
     if options.has_more_evidence:
         yield from _more_evidence(view)
 
@@ -40,15 +41,15 @@ def _more_evidence(view: ObjectView) -> Iterator[tuple[str, str]]:
     yield "display name", quote(view.display_name) if view.display_name else ""
     yield "documentation", quote(view.documentation) if view.documentation else ""
     if view.oriented_size is not None:
-        yield "extents along its own axes in metres", " x ".join(map(_number, view.oriented_size))
+        yield "extents along its own axes in metres", " x ".join(map(format_measure, view.oriented_size))
     for key in ("labels", "asset", "materials", "parts"):
         yield key, ", ".join(map(quote, getattr(view, key)))
 
 
-def _number(value: float) -> str:
+def format_measure(value: float) -> str:
     """Return a length in metres or mass in kilograms to three decimals, below 0.1 to five.
 
-    >>> [_number(value) for value in (1.9, 0.08125, 12.00049, -0.000001)]
+    >>> [format_measure(value) for value in (1.9, 0.08125, 12.00049, -0.000001)]
     ['1.9', '0.08125', '12', '0']
     """
     decimals = 3 if abs(value) >= 0.1 else 5

@@ -18,7 +18,7 @@ from usd2kg.grounding.llm.metered_client import Budget, MeteredClient
 from usd2kg.grounding.llm.prices import find_tariff, parse_price
 from usd2kg.grounding.llm.prompt_options import PromptOptions, Strategy
 from usd2kg.grounding.llm.prompts import Example
-from usd2kg.grounding.llm.settings import SAMPLING
+from usd2kg.grounding.llm.settings import CONCEPTS, SAMPLING
 from usd2kg.grounding.llm.traffic import Traffic
 from usd2kg.grounding.platt_scaling import read_scaling
 
@@ -32,9 +32,10 @@ class LLMSettings:
     model: str
     """The model string: `google:gemini-2.5-flash`, `gguf:FILE`…"""
     strategy: Strategy = Strategy.CONTEXT
-    objects_per_prompt: int = 1
+    objects_per_prompt: int | None = None
+    """Objects, or for `BY_CONCEPT` concepts, that a prompt asks about; None for 1, or the default of [concepts]."""
     is_tree: bool = False
-    """List the classes as a tree."""
+    """List the classes as a tree, as `BY_CONCEPT` always does."""
     is_thinking: bool = False
     is_each_object: bool = False
     """Ask about each object, even if it is similar to another."""
@@ -123,10 +124,14 @@ def open_metered_client(settings: LLMSettings) -> Iterator[MeteredClient]:
 
 def _prompt_options(settings: LLMSettings) -> PromptOptions:
     default = SAMPLING.temperature if settings.samples > 1 else 0.0
+    is_by_concept = settings.strategy is Strategy.BY_CONCEPT
+    per_prompt = settings.objects_per_prompt
+    if per_prompt is None:
+        per_prompt = CONCEPTS.concepts_per_prompt if is_by_concept else 1
     return PromptOptions(
         strategy=settings.strategy,
-        is_tree=settings.is_tree,
-        objects_per_prompt=settings.objects_per_prompt,
+        is_tree=settings.is_tree or is_by_concept,
+        objects_per_prompt=per_prompt,
         is_thinking=settings.is_thinking,
         has_more_evidence=settings.has_more_evidence,
         shuffle_seed=settings.shuffle_seed,
@@ -166,8 +171,9 @@ def parse_llm_name(name: str) -> tuple[str, Strategy]:
     strategies = {strategy.value.lower(): strategy for strategy in Strategy}
     if letter.lower() not in strategies or not model:
         raise GroundingError(
-            f"grounder {name!r} names no strategy and model; expected llm-A:MODEL, llm-B:MODEL, llm-C:MODEL or "
-            "llm-auto:MODEL, with a MODEL like google:gemini-2.5-flash, openai:NAME@http://localhost:8000/v1, gguf:FILE"
+            f"grounder {name!r} names no strategy and model; expected llm-A:MODEL, llm-B:MODEL, llm-C:MODEL, "
+            "llm-auto:MODEL or llm-concept:MODEL, with a MODEL like google:gemini-2.5-flash, "
+            "openai:NAME@http://localhost:8000/v1, gguf:FILE"
         )
     return model, strategies[letter.lower()]
 

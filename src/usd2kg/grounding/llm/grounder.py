@@ -5,11 +5,15 @@ import time
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from concurrent.futures import ThreadPoolExecutor, as_completed
 from dataclasses import replace
+from typing import NamedTuple
 
 from usd2kg.errors import GroundingError
 from usd2kg.grounding.context.views import ObjectView
 from usd2kg.grounding.llm.answers import ParsedAnswer, parse_answers, repair_request
+from usd2kg.grounding.llm.class_lists import name_classes
 from usd2kg.grounding.llm.completion import Completion, Finish
+from usd2kg.grounding.llm.concept_groups import group_by_concept
+from usd2kg.grounding.llm.concept_rows import describe_group
 from usd2kg.grounding.llm.degeneration import is_degenerate
 from usd2kg.grounding.llm.grouping import group_similar_views, make_shortlists
 from usd2kg.grounding.llm.limits import LIMITS
@@ -26,6 +30,15 @@ __all__ = ["LLMGrounder"]
 _INTERRUPTED = ParsedAnswer(
     None, Status.FAILED, "", "not asked: the run was interrupted; run the same command to resume"
 )
+
+
+class _Plan(NamedTuple):
+    """The prompts about some views."""
+
+    groups: list[list[int]]
+    """The indices of the views that share each answer."""
+    batches: list[Batch]
+    """Requests about `groups`, by index."""
 
 
 class LLMGrounder:
@@ -53,7 +66,8 @@ class LLMGrounder:
         Args:
             client: the client of the model.
             options: strategy and format of the prompts.
-            shares_answers: prompt once for objects that `group_similar_views` groups.
+            shares_answers: prompt once for objects that `group_similar_views` groups; no effect on `BY_CONCEPT`, which
+                always asks about the groups of `group_by_concept`.
             shortlist: number of candidates of the lexical grounder to offer for each object, with their superclasses
                 and the roots; None offers all classes.
             workers: prompts in flight at the same time.
@@ -78,6 +92,10 @@ class LLMGrounder:
         self.tariff = client.tariff
         self._scaling = scaling
         self.is_calibrated = scaling is not None
+
+    @property
+    def _is_by_concept(self) -> bool:
+        return self._options.strategy is Strategy.BY_CONCEPT
 
     @property
     def report(self) -> RunReport:
@@ -105,11 +123,30 @@ class LLMGrounder:
 
     def plan(self, views: Sequence[tuple[str, ObjectView]], tbox: TBox) -> list[Batch]:
         """Return the prompts that `ground_views` would send for each sample, without repairs."""
-        representatives = [views[indices[0]] for indices in self._groups([view for _, view in views])]
+        return self._plan(views, tbox).batches
+
+    def _plan(self, views: Sequence[tuple[str, ObjectView]], tbox: TBox) -> _Plan:
+        everything = [view for _, view in views]
+        rows = None
+        if self._is_by_concept:
+            concepts = group_by_concept(everything, tbox, has_more_evidence=self._options.has_more_evidence)
+            names = name_classes(tbox)
+            rows = [describe_group(group, everything, names, self._options) for group in concepts]
+            groups = [list(group.members) for group in concepts]
+        else:
+            groups = self._groups(everything)
+        representatives = [views[indices[0]] for indices in groups]
         shown = [view for _, view in representatives]
-        candidates = make_shortlists(shown, tbox, self._shortlist) if self._shortlist is not None else None
-        pictures = self._pictures(representatives)
-        return build_requests(shown, tbox, self._options, candidates, examples=self._examples, pictures=pictures)
+        batches = build_requests(
+            shown,
+            tbox,
+            self._options,
+            make_shortlists(shown, tbox, self._shortlist) if self._shortlist is not None else None,
+            examples=self._examples,
+            pictures=self._pictures(representatives),
+            rows=rows,
+        )
+        return _Plan(groups, batches)
 
     def _groups(self, views: Sequence[ObjectView]) -> list[list[int]]:
         return group_similar_views(views, self._options) if self._shares_answers else [[i] for i in range(len(views))]
@@ -123,15 +160,14 @@ class LLMGrounder:
     def ground_views(self, views: Sequence[tuple[str, ObjectView]], tbox: TBox) -> list[Prediction]:
         """Return one prediction for each (prim path, view); after an interrupt, the remaining ones are failures."""
         start = time.monotonic()
-        groups = self._groups([view for _, view in views])
-        batches = self.plan(views, tbox)
+        groups, batches = self._plan(views, tbox)
         self.report.objects += len(views)
         self.report.prompts += len(batches)
         predictions: dict[int, Prediction] = {}
         for batch, answers in self._run(batches, tbox):
             for index, answer in zip(batch.indices, answers, strict=True):
                 for member in groups[index]:
-                    predictions[member] = self._predict(views[member][0], answer)
+                    predictions[member] = self._predict(views[member][0], answer, len(groups[index]))
             if self._progress is not None:
                 self._progress(len(predictions), len(views))
         self.report.seconds += time.monotonic() - start
@@ -195,15 +231,16 @@ class LLMGrounder:
                 self.report.degenerate += 1
         return answers
 
-    def _predict(self, path: str, scored: ScoredAnswer) -> Prediction:
+    def _predict(self, path: str, scored: ScoredAnswer, sharing: int) -> Prediction:
         answer = scored.answer
+        shared = f" about {sharing} objects that share a concept" if sharing > 1 and self._is_by_concept else ""
         return Prediction(
             prim_path=path,
             class_iri=answer.class_iri,
             confidence=self._scale(scored.confidence),
             status=answer.status,
             grounder=self.name,
-            explanation=answer.problem or answer.reasoning or f"answer of {self._client.model}",
+            explanation=answer.problem or answer.reasoning or f"answer of {self._client.model}{shared}",
             evidence=("name",) if self._options.strategy is Strategy.NAME_ONLY else (),
             candidates=scored.candidates,
         )

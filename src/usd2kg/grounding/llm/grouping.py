@@ -4,10 +4,11 @@ from collections.abc import Sequence
 
 from usd2kg.grounding.context.views import ObjectView
 from usd2kg.grounding.lexical.grounder import LexicalGrounder
+from usd2kg.grounding.llm.commands import commanding_texts
 from usd2kg.grounding.llm.prompt_options import PromptOptions, Strategy
 from usd2kg.ontology import ClassIRI, TBox
 
-__all__ = ["group_similar_views", "make_shortlists"]
+__all__ = ["group_similar_views", "make_shortlists", "signature_of"]
 
 
 def make_shortlists(views: Sequence[ObjectView], tbox: TBox, size: int) -> list[list[ClassIRI]]:
@@ -21,17 +22,20 @@ def group_similar_views(views: Sequence[ObjectView], options: PromptOptions) -> 
     """Return the indices of views in groups that share one answer: they differ only in a number and in position.
 
     For strategy A the name alone counts; for B and C also the names of the parents, the size to the centimetre, the
-    mass and the asset. A masked view is a group by itself, since masking can make different objects look alike.
+    mass and the asset. A masked view is a group by itself, since masking can make different objects look alike. An
+    object whose texts may command the model shares an answer only with objects of the same texts.
     """
     groups: dict[object, list[int]] = {}
     for index, view in enumerate(views):
         strategy = options.strategy.for_name(view.name, is_thinking=options.is_thinking)
-        key: object = index if view.is_masked else (strategy, _signature(view, strategy))
+        commands = commanding_texts(view, has_more_evidence=options.has_more_evidence)
+        key: object = index if view.is_masked else (strategy, signature_of(view, strategy), commands)
         groups.setdefault(key, []).append(index)
     return list(groups.values())
 
 
-def _signature(view: ObjectView, strategy: Strategy) -> object:
+def signature_of(view: ObjectView, strategy: Strategy) -> object:
+    """Return what objects that share an answer have in common, as a hashable value."""
     name = _without_number(view.name)
     if strategy is Strategy.NAME_ONLY:
         return name

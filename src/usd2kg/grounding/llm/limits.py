@@ -26,6 +26,8 @@ class OperationalLimits:
     """A stream with more characters per allowed token is cut off: the server ignores its token limit."""
     concurrency: int = 4
     """Prompts in flight at the same time."""
+    max_enum_values: int = 1000
+    """Enum values of a schema that OpenAI accepts, https://platform.openai.com/docs/guides/structured-outputs."""
     max_json_starts: int = 200
     """Opening braces of a completion that are tried as the start of a JSON object."""
     max_siblings: int = 48

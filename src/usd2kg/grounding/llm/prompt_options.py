@@ -19,6 +19,8 @@ class Strategy(StrEnum):
     """Also geometry, position and hierarchy."""
     CHAIN_OF_THOUGHT = "C"
     """As B, and the model writes its reasoning before the class."""
+    BY_CONCEPT = "concept"
+    """One question for all objects that share a concept, with the candidates of the lexical grounder."""
     BY_NAME = "auto"
     """A for objects with an informative name; otherwise C, or B for a reasoning model.
 

@@ -10,6 +10,7 @@ from typing import Any
 
 from usd2kg.grounding.context.views import ObjectView
 from usd2kg.grounding.llm.class_lists import list_classes, name_classes
+from usd2kg.grounding.llm.commands import commanding_texts
 from usd2kg.grounding.llm.completion import Request
 from usd2kg.grounding.llm.descriptions import describe_object
 from usd2kg.grounding.llm.prompt_options import PromptOptions, Strategy
@@ -51,6 +52,7 @@ def build_requests(
     *,
     examples: Sequence[Example] = (),
     pictures: Mapping[int, bytes] | None = None,
+    rows: Sequence[Sequence[str]] | None = None,
 ) -> list[Batch]:
     """Return the requests about all views, grouped by strategy and otherwise in order.
 
@@ -61,8 +63,10 @@ def build_requests(
         candidates: the classes to offer for each view; the roots for an empty list. A user prompt lists the classes of
             all its objects, so that system prompts stay equal. None offers the whole TBox in the system prompt, which
             servers can cache.
-        examples: objects of the scene with known classes, shown in the system prompt.
+        examples: objects of the scene with known classes, shown in the system prompt unless their texts may command the
+            model.
         pictures: index in `views` → PNG picture, sent with the prompt about that object.
+        rows: the lines about each view; None for those of `describe_object`.
     """
     by_strategy: dict[Strategy, list[int]] = {}
     for index, view in enumerate(views):
@@ -70,12 +74,21 @@ def build_requests(
     batches = []
     for strategy, members in sorted(by_strategy.items()):
         writer = _PromptWriter(tbox, replace(options, strategy=strategy), examples, offers_all=candidates is None)
-        for start in range(0, len(members), options.objects_per_prompt):
-            indices = tuple(members[start : start + options.objects_per_prompt])
+        for indices in _split(members, views, options):
             offered = [candidates[index] for index in indices] if candidates is not None else []
             shown = [(pictures or {}).get(index) for index in indices]
-            batches.append(writer.write_batch(indices, [views[index] for index in indices], offered, shown))
+            lines = [rows[index] if rows is not None else writer.describe(views[index]) for index in indices]
+            batches.append(writer.write_batch(indices, lines, offered, shown))
     return batches
+
+
+def _split(members: Sequence[int], views: Sequence[ObjectView], options: PromptOptions) -> Iterator[tuple[int, ...]]:
+    """Yield the objects of each prompt; one whose texts may command the model has a prompt of its own."""
+    is_alone = {i for i in members if commanding_texts(views[i], has_more_evidence=options.has_more_evidence)}
+    together = [index for index in members if index not in is_alone]
+    for start in range(0, len(together), options.objects_per_prompt):
+        yield tuple(together[start : start + options.objects_per_prompt])
+    yield from ((index,) for index in members if index in is_alone)
 
 
 class _PromptWriter:
@@ -85,13 +98,16 @@ class _PromptWriter:
         self._tbox = tbox
         self._options = options
         self._names = name_classes(tbox)
-        self._examples = examples
+        # The system prompt is part of all prompts, so no text in it may command the model.
+        self._examples = [
+            one for one in examples if not commanding_texts(one.view, has_more_evidence=options.has_more_evidence)
+        ]
         self._all_classes = list_classes(tbox, self._names, tbox.by_iri, options) if offers_all else None
         strategy = read_template(f"strategy_{options.strategy}").template
         parts = [fill_template("system", strategy=strategy)]
         if self._all_classes is not None:
             parts.append(self._all_classes.text)
-        if examples:
+        if self._examples:
             parts.append(fill_template("examples", examples="\n\n".join(self._example_rows())))
         self._system = "\n".join(parts)
 
@@ -100,21 +116,25 @@ class _PromptWriter:
             rows = describe_object(example.view, self._options)
             yield "\n".join([f"example {number}", *rows, f"class: {self._names[example.class_iri]}"])
 
+    def describe(self, view: ObjectView) -> list[str]:
+        """Return the lines about one object."""
+        return list(describe_object(view, self._options))
+
     def write_batch(
         self,
         indices: tuple[int, ...],
-        views: Sequence[ObjectView],
+        lines: Sequence[Sequence[str]],
         candidates: Sequence[Sequence[ClassIRI]],
         pictures: Sequence[bytes | None],
     ) -> Batch:
-        """Return the request about some objects with their candidate classes and pictures."""
+        """Return the request about some objects with the lines about them, candidate classes and pictures."""
         user, offer = "", self._all_classes
         if offer is None:
             offered = {iri: None for row in candidates for iri in row or self._tbox.roots}
             offered |= dict.fromkeys(example.class_iri for example in self._examples)
             offer = list_classes(self._tbox, self._names, offered, self._options)
             user = offer.text + "\n"
-        user += self._describe_objects(views, pictures)
+        user += _number_objects(lines, pictures)
         options = self._options
         request = Request(
             system=self._system,
@@ -127,17 +147,18 @@ class _PromptWriter:
         )
         return Batch(request, indices, offer.classes)
 
-    def _describe_objects(self, views: Sequence[ObjectView], pictures: Sequence[bytes | None]) -> str:
-        rows = []
-        shown = 0
-        for number, (view, picture) in enumerate(zip(views, pictures, strict=True), start=1):
-            lines = list(describe_object(view, self._options))
-            if picture is not None:
-                shown += 1
-                lines.append(f"picture: image {shown}")
-            rows.append("\n".join([f"object {number}", *(lines or ["nothing is known of it"])]))
-        numbers = ", ".join(str(number) for number in range(1, len(views) + 1))
-        return fill_template("objects", objects="\n\n".join(rows), numbers=numbers)
+
+def _number_objects(lines: Sequence[Sequence[str]], pictures: Sequence[bytes | None]) -> str:
+    rows = []
+    shown = 0
+    for number, (known, picture) in enumerate(zip(lines, pictures, strict=True), start=1):
+        row = [f"object {number}", *(known or ["nothing is known of it"])]
+        if picture is not None:
+            shown += 1
+            row.append(f"picture: image {shown}")
+        rows.append("\n".join(row))
+    numbers = ", ".join(str(number) for number in range(1, len(lines) + 1))
+    return fill_template("objects", objects="\n\n".join(rows), numbers=numbers)
 
 
 def _answer_schema(count: int, names: list[str], strategy: Strategy) -> dict[str, Any]:

@@ -5,11 +5,15 @@ from dataclasses import dataclass
 from usd2kg.knowledge import read_settings
 
 __all__ = [
+    "COMMANDS",
+    "CONCEPTS",
     "DECODING",
     "DEGENERATION",
     "ESTIMATES",
     "MEMBERS",
     "SAMPLING",
+    "CommandSettings",
+    "ConceptSettings",
     "DecodingSettings",
     "DegenerationSettings",
     "EstimateSettings",
@@ -66,8 +70,30 @@ class MemberSettings:
     max_noun_characters: int
 
 
+@dataclass(frozen=True, slots=True)
+class ConceptSettings:
+    """Questions about groups of objects that share a concept."""
+
+    concepts_per_prompt: int
+    max_readings: int
+    max_broader: int
+    max_siblings: int
+    max_parents: int
+    max_assets: int
+    max_candidates: int
+
+
+@dataclass(frozen=True, slots=True)
+class CommandSettings:
+    """Texts that may command the model."""
+
+    max_words: int
+
+
 DEGENERATION = read_settings("llm", "degeneration", DegenerationSettings)
 DECODING = read_settings("llm", "decoding", DecodingSettings)
 SAMPLING = read_settings("llm", "sampling", SamplingSettings)
 ESTIMATES = read_settings("llm", "estimates", EstimateSettings)
 MEMBERS = read_settings("llm", "members", MemberSettings)
+CONCEPTS = read_settings("llm", "concepts", ConceptSettings)
+COMMANDS = read_settings("llm", "commands", CommandSettings)
