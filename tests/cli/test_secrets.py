@@ -1,5 +1,6 @@
 """Planted secrets are found in no output, log, cache or recording."""
 
+import json
 import os
 import subprocess
 import sys
@@ -44,12 +45,13 @@ def test_no_secret_is_written_anywhere(room: Path, tmp_path: Path):
         assert done.returncode == code, done.stderr
         said.extend((done.stdout, done.stderr))
 
-    with serve(openai_reply("Cup")) as server:
+    echo = json.dumps({"1": {"class": "Cup", "reasoning": f"by {SECRETS['OPENAI_API_KEY']}"}})
+    with serve(openai_reply(echo, tokens=[(echo, -0.1)], thinking=echo)) as server:
         model = f"llm-A:openai:test@{server.url}/v1"
         usd2kg("build", room, "-o", "llm.ttl", "--grounder", model)
         assert server.received[0].headers["authorization"] == f"Bearer {SECRETS['OPENAI_API_KEY']}", "the key was used"
     with serve(refuse(401, f"wrong key {SECRETS['OPENAI_API_KEY']}")) as server:
-        usd2kg("build", room, "-o", "failed.ttl", "--grounder", f"llm-A:openai:test@{server.url}/v1")
+        usd2kg("build", room, "-o", "failed.ttl", "--grounder", f"llm-A:openai:test@{server.url}/v1", code=2)
     usd2kg("build", room, "-o", "plain.ttl", "--store", "store")
     usd2kg("ground", room, "-o", "mapping.sssom.tsv")
     usd2kg("label", "write", room, "plain.ttl", "-o", "labels.usda")

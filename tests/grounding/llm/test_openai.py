@@ -9,6 +9,7 @@ from tests.grounding.llm.connections import KEYS, REQUEST, SCHEMA, complete, con
 from usd2kg.grounding.llm import model_reference
 from usd2kg.grounding.llm.clients import make_client
 from usd2kg.grounding.llm.completion import Finish, Request, Usage
+from usd2kg.grounding.llm.prompts import object_schema
 
 
 class TestCompatibleServers:
@@ -173,3 +174,32 @@ class TestOpenAI:
         sent = body["response_format"]["json_schema"]
         assert sent["strict"] is False
         assert sent["schema"] == schema
+
+
+class TestManyEnumValues:
+    """OpenAI accepts 1,000 enum values in a schema."""
+
+    def schema(self, rows: int, values: int) -> dict:
+        row = object_schema({"class": {"type": "string", "enum": [f"Class{number}" for number in range(values)]}})
+        return object_schema({str(number): row for number in range(1, rows + 1)})
+
+    def sent(self, schema: dict) -> dict:
+        _, (received,) = complete("openai:m", servers.openai_reply("{}"), request=replace(REQUEST, schema=schema))
+        return received.body["response_format"]["json_schema"]["schema"]
+
+    def test_equal_rows_are_defined_once(self):
+        schema = self.schema(11, 100)
+        sent = self.sent(schema)
+        assert sent["$defs"] == {"row": schema["properties"]["1"]}
+        assert sent["properties"] == {str(number): {"$ref": "#/$defs/row"} for number in range(1, 12)}
+        assert sent["required"] == schema["required"]
+
+    def test_rows_of_a_smaller_schema_stay_in_their_place(self):
+        assert self.sent(self.schema(10, 100)) == self.schema(10, 100)
+
+
+def test_a_key_that_the_server_echoes_is_removed_from_the_completion():
+    secret = KEYS["OPENAI_API_KEY"]
+    tokens = [("the key is ", -0.1), (secret[:4], -0.1), (secret[4:], -0.1)]
+    completion, _ = complete("openai:m", servers.openai_reply(f"the key is {secret}", tokens=tokens, thinking=secret))
+    assert (completion.text, completion.thinking, completion.tokens) == ("the key is [key]", "[key]", ())

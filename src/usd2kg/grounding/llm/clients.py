@@ -157,7 +157,15 @@ class HttpClient:
         if isinstance(outcome, Failure):
             # Raised outside any handler, so that the library's exception with its unredacted message is not chained.
             raise GroundingError(self._explain(outcome, attempts))
-        return outcome
+        return self._without_secrets(outcome)
+
+    def _without_secrets(self, completion: Completion) -> Completion:
+        """Return a completion without keys that the server echoed; if it did, without token probabilities, too."""
+        text, thinking = self._redact.hide(completion.text), self._redact.hide(completion.thinking)
+        spelled = "".join(piece for piece, _ in completion.tokens)
+        if (text, thinking, self._redact.hide(spelled)) == (completion.text, completion.thinking, spelled):
+            return completion
+        return replace(completion, text=text, thinking=thinking, tokens=())
 
     def _send(self, request: Request) -> Completion | Failure:
         """Send a request; repeat it without each feature that the server rejects, which is not requested again."""

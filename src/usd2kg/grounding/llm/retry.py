@@ -70,10 +70,15 @@ class Redactor:
         known = {secret for secret in secrets if len(secret) >= LIMITS.min_secret_characters}
         self._secrets = sorted(known, key=lambda secret: (-len(secret), secret))
 
-    def __call__(self, text: str) -> str:
-        """Return the text without secrets, on one line of at most `LIMITS.max_error_characters`."""
+    def hide(self, text: str) -> str:
+        """Return the text without secrets."""
         for secret in self._secrets:
             text = text.replace(secret, "[key]")
+        return text
+
+    def __call__(self, text: str) -> str:
+        """Return the text without secrets, on one line of at most `LIMITS.max_error_characters`."""
+        text = self.hide(text)
         line = " ".join(_KEY_SHAPES.sub("[key]", text).split())
         return line if len(line) <= LIMITS.max_error_characters else line[: LIMITS.max_error_characters - 1] + "…"
 
