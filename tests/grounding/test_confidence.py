@@ -9,7 +9,7 @@ from tests.grounding.ontologies import parse_outline
 from tests.grounding.records import LAB
 from usd2kg.grounding import ObjectView
 from usd2kg.grounding.lexical.class_posterior import NO_POSTERIOR
-from usd2kg.grounding.lexical.confidence import features_of, general_class_log_odds
+from usd2kg.grounding.lexical.confidence import calibrate, features_of, general_class_log_odds
 from usd2kg.grounding.lexical.grounder import LexicalGrounder
 from usd2kg.grounding.lexical.scored_view import ScoredView
 from usd2kg.grounding.model import Candidate, Prediction, Status
@@ -67,3 +67,15 @@ def test_margin_has_a_feature_of_its_own_for_other_ontologies(tbox: TBox, name: 
     features = features_of(ScoredView(prediction, NO_POSTERIOR), tbox, tbox.roots, log_odds=0.0)
     assert features["margin"] == pytest.approx(0.5)
     assert features["foreign_margin"] == pytest.approx(foreign_margin)
+
+
+@pytest.mark.parametrize("tbox", [LABORATORY, load_home_tbox()])
+def test_unknown_words_lower_the_confidence(tbox: TBox):
+    general = frozenset(tbox.roots)
+    iri = tbox.classes[-1].iri
+    prediction = replace(predict(None, "name"), class_iri=iri, candidates=(Candidate(iri, 0.8),))
+    known, partly = (
+        calibrate(features_of(ScoredView(prediction, NO_POSTERIOR, unknown_share=share), tbox, general, log_odds=0.0))
+        for share in (0.0, 0.5)
+    )
+    assert partly < known

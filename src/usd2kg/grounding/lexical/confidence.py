@@ -36,6 +36,8 @@ FEATURES = (
     "posterior",
     "is_listed",
     "listed_general",
+    "unknown_share",
+    "foreign_unknown_share",
 )
 """Names of the features."""
 
@@ -75,7 +77,9 @@ def features_of(scored: ScoredView, tbox: TBox, general: Container[ClassIRI], lo
     - `posterior`: log of the probability given size and place, relative to 0.1; 0 where the size is unknown,
       where the context decided, and for foreign classes;
     - `is_listed`: whether a list of what belongs to the class decided;
-    - `listed_general`: the same, for general classes.
+    - `listed_general`: the same, for general classes;
+    - `unknown_share`: the share of the words of the name that are not known;
+    - `foreign_unknown_share`: the same, for foreign classes only.
 
     Args:
         scored: the prediction with the scores of its candidates, and class probabilities given size, stance and the
@@ -84,7 +88,7 @@ def features_of(scored: ScoredView, tbox: TBox, general: Container[ClassIRI], lo
         general: the general ones among them.
         log_odds: see `general_class_log_odds`, for the predictions of the stage.
     """
-    prediction, posterior, is_listed = scored
+    prediction, posterior, is_listed, unknown_share = scored
     scores = [candidate.score for candidate in prediction.candidates]
     first, second = (*scores, 0.0, 0.0)[:2]
     iri = prediction.class_iri
@@ -109,6 +113,8 @@ def features_of(scored: ScoredView, tbox: TBox, general: Container[ClassIRI], lo
         "posterior": 0.0 if is_foreign or is_by_context else _log_posterior(iri, posterior),
         "is_listed": float(is_listed),
         "listed_general": float(is_listed and is_general),
+        "unknown_share": unknown_share,
+        "foreign_unknown_share": unknown_share if is_foreign else 0.0,
     }
 
 

@@ -20,7 +20,7 @@ from usd2kg.grounding.lexical.matching.term_matching import TermMatcher
 from usd2kg.grounding.lexical.name_evidence import NameEvidence
 from usd2kg.grounding.lexical.reading.evidence_texts import is_generated_name
 from usd2kg.grounding.lexical.reading.noun_phrase import NameReader
-from usd2kg.grounding.lexical.reading.shared_prefix import view_without_prefix, without_prefix
+from usd2kg.grounding.lexical.reading.shared_prefix import view_without_prefix
 from usd2kg.grounding.lexical.scored_view import ScoredView
 from usd2kg.grounding.lexical.settings import EVIDENCE
 from usd2kg.grounding.model import Candidate, Prediction, Status
@@ -81,12 +81,19 @@ class ObjectGrounder:
     def predict(self, prim_path: str, view: ObjectView) -> ScoredView:
         """Return the class of a view with an uncalibrated score."""
         prefix = self._context.shared_prefix(view)
-        scored = self._predict(prim_path, view_without_prefix(view, prefix))
-        if without_prefix(view.name, prefix) == view.name:
+        shown = view_without_prefix(view, prefix)
+        scored = self._predict(prim_path, shown)
+        scored = scored._replace(unknown_share=self._unknown_share(scored.prediction, shown))
+        if shown.name == view.name:
             return scored
         note = f"most names of the stage begin with “{' '.join(prefix)}”, which was left out"
         explanation = f"{scored.prediction.explanation}; {note}"
         return scored._replace(prediction=replace(scored.prediction, explanation=explanation))
+
+    def _unknown_share(self, prediction: Prediction, view: ObjectView) -> float:
+        words = prediction.words or self._reader.read(view.name, view.parents).words
+        unknown = [word for word in words if not self._reader.kinds.is_known(word)]
+        return len(unknown) / len(words) if words else 0.0
 
     def _predict(self, prim_path: str, view: ObjectView) -> ScoredView:
         posterior = self._context.posterior_by_appearance(view)

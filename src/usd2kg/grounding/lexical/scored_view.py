@@ -17,3 +17,5 @@ class ScoredView(NamedTuple):
     """By the appearance of the object."""
     is_listed: bool = False
     """Whether a list of what belongs to the class decided: a shipped one, a language model's or a person's."""
+    unknown_share: float = 0.0
+    """Share of the words of the name, as it was read, that are not known; 0 for a name without words."""
