@@ -22,6 +22,10 @@ _SETTINGS = "_hypothesis_internal_use_settings"
 SHARED = Path(os.environ.get("USD2KG_SHARED", Path(__file__).parents[2] / "shared"))
 """Real scenes and ontologies with gold labels; they may not be redistributed with the project."""
 
+settings.register_profile("usd2kg", deadline=None)
+settings.load_profile("usd2kg")
+"""Examples have no deadline by the clock: the machine may be busy."""
+
 gc.set_threshold(50_000, 20, 100)
 """Tests make many small things that stay, which the collector would traverse often. `gc.freeze` does not help:
 `paused_collection` counts what is frozen."""
