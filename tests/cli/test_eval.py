@@ -8,6 +8,7 @@ from pathlib import Path
 import pytest
 
 from tests.evaluation.conftest import omit_png_and_pdf
+from tests.grounding.llm.servers import openai_reply, refuse, serve
 
 GOLD = "path,class,also\n/Room/Table_1,Table,\n/Room/coffee_mug,Bowl,Cup\n/Room/Nowhere,Sofa,\n"
 
@@ -124,6 +125,33 @@ def test_agreement_of_two_annotators(run, gold: Path, tmp_path: Path) -> None:
     assert [item["path"] for item in data["disagreements"]] == ["/Room/coffee_mug"]
     text = run("eval", "agreement", gold, other).out
     assert "Cohen's kappa" in text
+
+
+def test_reproduce_asks_again_for_answers_that_a_model_failed_to_give(
+    run, room: Path, gold: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setenv("USD2KG_CACHE", str(tmp_path / "completions.sqlite"))
+    monkeypatch.setenv("OPENAI_API_KEY", "sk-secret-4711")
+    cup = openai_reply(json.dumps({"1": {"class": "Cup"}}))
+    with serve(cup, refuse(401, "no access"), cup) as server:
+        matrix = tmp_path / "matrix.toml"
+        matrix.write_text(
+            f'grounders = ["llm-A:openai:m@{server.url}/v1"]\nregimes = ["semantic"]\n'
+            f'[[scene]]\nname = "room"\npath = "{room.name}"\ngold = "{gold.name}"\n',
+            encoding="utf-8",
+        )
+        first, second, third = (run("eval", "reproduce", matrix, "-o", tmp_path / "out") for _ in range(3))
+        asked = len(server.received)
+    assert (first.code, second.code, third.code) == (2, 0, 0)
+    assert "(1 objects failed)" in first.err
+    assert "1 of 1 results lack 1 answers (model 'openai:m" in first.err
+    assert "no access" in first.err
+    assert "run the same command again to complete them" in first.err
+    assert (tmp_path / "out/report.md").exists()
+    assert "stored" not in second.err
+    assert "(stored)" in third.err
+    # Two objects of the gold are on the stage; the answer that the first run received is not asked for again.
+    assert asked == 3
 
 
 def test_reproduce_writes_reports_and_resumes(run, room: Path, gold: Path, tmp_path: Path, monkeypatch) -> None:

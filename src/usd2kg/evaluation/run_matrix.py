@@ -14,7 +14,7 @@ from usd2kg.evaluation.matrix import Cell, Matrix, SceneSpec
 from usd2kg.evaluation.metrics.selection_scores import SelectionScore
 from usd2kg.evaluation.run import Evaluation, evaluate, score_grounding, score_scene_selection
 from usd2kg.files import write_whole
-from usd2kg.grounding import Grounder, format_mapping, make_grounder, read_grounding
+from usd2kg.grounding import Grounder, Status, format_mapping, make_grounder, read_grounding
 from usd2kg.ontology import TBox, load_home_tbox, load_tbox
 from usd2kg.scene import Scene, read_scene
 
@@ -31,6 +31,11 @@ class CellResult:
     evaluation: Evaluation
     was_stored: bool
     """Whether the answers were read from a file, not computed."""
+
+    @property
+    def failed(self) -> int:
+        """Number of objects that the grounder could not ground, for instance because a server was down."""
+        return sum(score.status is Status.FAILED for score in self.evaluation.scores)
 
 
 @dataclass(frozen=True)
@@ -50,7 +55,8 @@ def run_matrix(
 ) -> list[SceneResult]:
     """Return the results of all runs, scene by scene.
 
-    The answers of each run are stored in `folder/runs` when the run ends. Runs with stored answers are only scored.
+    The answers of each run are stored in `folder/runs` when the run ends, unless the grounder failed on an object: such
+    a run is repeated the next time. Runs with stored answers are only scored.
 
     Args:
         matrix: the runs. Optional scenes with missing files are skipped.
@@ -108,9 +114,12 @@ def _run_cell(
         evaluation = score_grounding(read_grounding(store), gold, tbox, float(timing.read_text("utf-8")))
         return CellResult(cell, evaluation, was_stored=True)
     evaluation = evaluate(scene, gold, tbox, grounder, regime=cell.regime, evidence=cell.evidence)
+    result = CellResult(cell, evaluation, was_stored=False)
+    if result.failed:
+        return result
     write_whole(timing, repr(evaluation.seconds).encode())
     write_whole(store, format_mapping(evaluation.grounding, tbox, "json").encode())
-    return CellResult(cell, evaluation, was_stored=False)
+    return result
 
 
 def _key(cell: Cell, scene: Scene, gold: tuple[GoldLabel, ...], tbox: TBox, grounder: Grounder) -> str:

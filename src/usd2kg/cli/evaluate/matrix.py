@@ -1,6 +1,6 @@
 """usd2kg eval reproduce and eval kitchen-set: evaluation matrices with reports."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from itertools import count
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
@@ -29,7 +29,7 @@ def reproduce_command(
 ) -> None:
     """Evaluate scenes × grounders × regimes × ablations and write tables, plots and a report.
 
-    Results are stored, so an interrupted run resumes.
+    Results are stored, so an interrupted run resumes. Results without all answers of a model are computed again.
     """
     from usd2kg import evaluation  # noqa: PLC0415
     from usd2kg.evaluation.report import write_report  # noqa: PLC0415
@@ -44,6 +44,24 @@ def reproduce_command(
         raise EvaluationError(f"{matrix}: none of its scenes exists; correct the paths")
     for path in write_report(results, plan.title, output):
         emit(f"{path}\n")
+    _check_complete([cell for result in results for cell in result.cells])
+
+
+def _check_complete(cells: "Sequence[CellResult]") -> None:
+    """Check that no grounder failed on an object.
+
+    Raises:
+        EvaluationError: one did; the message says why.
+    """
+    incomplete = [cell for cell in cells if cell.failed]
+    if incomplete:
+        scores = incomplete[0].evaluation.scores
+        reason = next(score.explanation for score in scores if score.status == "failed")
+        answers = sum(cell.failed for cell in incomplete)
+        raise EvaluationError(
+            f"{len(incomplete)} of {len(cells)} results lack {answers} answers ({reason}); in the report, these "
+            "objects count as wrong; run the same command again to complete them"
+        )
 
 
 def _progress(total: int) -> "Callable[[CellResult], None]":
@@ -54,7 +72,10 @@ def _progress(total: int) -> "Callable[[CellResult], None]":
         cell, summary = result.cell, result.evaluation.summary
         stored = " (stored)" if result.was_stored else ""
         figures = f"EMA {summary.ema:.1f} HF1 {summary.hf1:.2f}"
-        notify(f"[{next(numbers)}/{total}] {cell.scene.name}, {cell.grounder}, {cell.condition}: {figures}{stored}")
+        failed = f" ({result.failed} objects failed)" if result.failed else ""
+        notify(
+            f"[{next(numbers)}/{total}] {cell.scene.name}, {cell.grounder}, {cell.condition}: {figures}{stored}{failed}"
+        )
 
     return report
 
