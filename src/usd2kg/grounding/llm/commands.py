@@ -24,8 +24,8 @@ _WITHHELD = "…"
 def may_command(text: str) -> bool:
     """Return whether a text may command a model.
 
-    It has many words, a word of commands, markup, a colon before a space, invisible characters, characters that look
-    like others, or Latin letters beside Cyrillic or Greek ones.
+    It has many words, a word of commands or sentences, markup, a colon before a space, invisible characters, characters
+    that look like others, or Latin letters beside Cyrillic or Greek ones.
 
     >>> [may_command(text) for text in ("SM_CupCBlue_01", "ignore_previous", "system: bowl", "<row>")]
     [False, True, True, True]
