@@ -7,12 +7,9 @@ import warnings
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from types import TracebackType
-from typing import TYPE_CHECKING, Any, Protocol, Self
+from typing import Any, Protocol, Self
 
 from usd2kg.tracing import are_steps_followed, followed_steps
-
-if TYPE_CHECKING:
-    pass
 
 __all__ = ["show_steps"]
 

@@ -33,9 +33,9 @@ class CellResult:
     """Whether the answers were read from a file, not computed."""
 
     @property
-    def failed(self) -> int:
-        """Number of objects that the grounder could not ground, for instance because a server was down."""
-        return sum(score.status is Status.FAILED for score in self.evaluation.scores)
+    def failures(self) -> tuple[str, ...]:
+        """For each object that the grounder failed on, why: for instance, a server was down."""
+        return tuple(score.explanation for score in self.evaluation.scores if score.status is Status.FAILED)
 
 
 @dataclass(frozen=True)
@@ -115,7 +115,7 @@ def _run_cell(
         return CellResult(cell, evaluation, was_stored=True)
     evaluation = evaluate(scene, gold, tbox, grounder, regime=cell.regime, evidence=cell.evidence)
     result = CellResult(cell, evaluation, was_stored=False)
-    if result.failed:
+    if result.failures:
         return result
     write_whole(timing, repr(evaluation.seconds).encode())
     write_whole(store, format_mapping(evaluation.grounding, tbox, "json").encode())

@@ -53,11 +53,9 @@ def _check_complete(cells: "Sequence[CellResult]") -> None:
     Raises:
         EvaluationError: one did; the message says why.
     """
-    incomplete = [cell for cell in cells if cell.failed]
+    incomplete = [cell.failures for cell in cells if cell.failures]
     if incomplete:
-        scores = incomplete[0].evaluation.scores
-        reason = next(score.explanation for score in scores if score.status == "failed")
-        answers = sum(cell.failed for cell in incomplete)
+        reason, answers = incomplete[0][0], sum(map(len, incomplete))
         raise EvaluationError(
             f"{len(incomplete)} of {len(cells)} results lack {answers} answers ({reason}); in the report, these "
             "objects count as wrong; run the same command again to complete them"
@@ -72,7 +70,7 @@ def _progress(total: int) -> "Callable[[CellResult], None]":
         cell, summary = result.cell, result.evaluation.summary
         stored = " (stored)" if result.was_stored else ""
         figures = f"EMA {summary.ema:.1f} HF1 {summary.hf1:.2f}"
-        failed = f" ({result.failed} objects failed)" if result.failed else ""
+        failed = f" ({len(result.failures)} objects failed)" if result.failures else ""
         notify(
             f"[{next(numbers)}/{total}] {cell.scene.name}, {cell.grounder}, {cell.condition}: {figures}{stored}{failed}"
         )
