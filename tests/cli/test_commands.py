@@ -291,6 +291,9 @@ class TestQuery:
         assert done.out == "l\ncoffee_mug\n1 row\n"
         Path("cups.rq").write_text(query, encoding="utf-8")
         assert run("query", graph, "--sparql", "@cups.rq") == done
+        without_at = run("query", graph, "--sparql", "cups.rq")
+        assert (without_at.code, without_at.out) == (2, "")
+        assert "--sparql cups.rq: is a file; expected a query, or @cups.rq to read it from there" in without_at.err
 
     @pytest.mark.parametrize("arguments", [[], ["on", "table", "--sparql", "ASK {}"]])
     def test_rejects_no_query_and_several_queries(self, run: Run, graph: Path, arguments: list[str]):

@@ -161,9 +161,11 @@ def read_sparql(text: str) -> str:
     """Return a query as given, or the content of a file named as @FILE.
 
     Raises:
-        GraphError: the file cannot be read.
+        GraphError: the file cannot be read, or is named without the @.
     """
     if not text.startswith("@"):
+        if len(text.split()) == 1 and Path(text).is_file():
+            raise GraphError(f"--sparql {text}: is a file; expected a query, or @{text} to read it from there")
         return text
     try:
         return Path(text[1:]).read_text("utf-8")

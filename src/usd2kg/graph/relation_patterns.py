@@ -18,6 +18,8 @@ __all__ = [
     "soma_relation",
 ]
 
+_DECIMALS = 6
+"""Decimals of measurements."""
 _SOMA: Mapping[str, tuple[ox.NamedNode, ...]] = {
     "on": (SOMA.isOntopOf, SOMA.isSupportedBy),
     "inside": (SOMA.isInsideOf,),
@@ -79,8 +81,11 @@ def _inverse(relation: Relation, name: ox.NamedNode, target: ox.NamedNode, ancho
 
 
 def relation_annotations(relation: Relation) -> list[tuple[ox.NamedNode, ox.NamedNode | ox.Literal]]:
-    """Return the rule, measurements and confidence of a relation as annotations."""
-    numbers = [(U2K[name], number(value)) for name, value in relation.numbers.items()]
+    """Return the rule, measurements and confidence of a relation as annotations.
+
+    Measurements have six decimals, micrometres for lengths: what is below is noise of 32-bit coordinates.
+    """
+    numbers = [(U2K[name], number(round(value, _DECIMALS))) for name, value in relation.numbers.items()]
     confidence = [] if relation.confidence is None else [(SSSOM.confidence, number(relation.confidence))]
     return [(U2K.rule, text(relation.rule)), *numbers, *confidence]
 
