@@ -1,7 +1,9 @@
 """usd2kg.toml: options that a project sets once."""
 
 import json
+import logging
 from collections.abc import Iterator
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -171,8 +173,10 @@ class TestGlobalOptions:
         assert found is not None
         assert found.global_options == ("--no-color",)
 
-    def test_the_form_of_messages_holds_from_the_first_one(self, run: Run, room: Path, monkeypatch):
+    def test_the_form_of_messages_holds_from_the_first_one(self, run: Run, room: Path, monkeypatch, request):
+        # As when a command starts: pytest's own handlers keep `basicConfig` from its work.
         monkeypatch.setattr("logging.root.handlers", [])
+        request.addfinalizer(partial(logging.root.setLevel, logging.root.level))
         write('log-format = "json"', room.parent)
         lines = run("inspect", room).err.splitlines()
         assert json.loads(lines[0])["message"].endswith("usd2kg.toml: sets log-format")
