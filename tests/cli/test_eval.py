@@ -143,7 +143,7 @@ def test_reproduce_asks_again_for_answers_that_a_model_failed_to_give(
         first, second, third = (run("eval", "reproduce", matrix, "-o", tmp_path / "out") for _ in range(3))
         asked = len(server.received)
     assert (first.code, second.code, third.code) == (2, 0, 0)
-    assert "(1 objects failed)" in first.err
+    assert "(1 object failed)" in first.err
     assert "1 of 1 results lack 1 answers (model 'openai:m" in first.err
     assert "no access" in first.err
     assert "run the same command again to complete them" in first.err
@@ -186,7 +186,7 @@ def test_kitchen_set_lists_objects_without_gold(run, tmp_path: Path) -> None:
     )
     done = run("eval", "kitchen-set", tmp_path)
     assert (done.code, done.out) == (0, "/Kitchen/a\n")
-    assert "1 objects (the study has 125)" in done.err
+    assert "1 object (the study has 125)" in done.err
 
 
 @pytest.mark.parametrize(

@@ -90,7 +90,7 @@ def test_asks_once_about_a_concept_that_the_lexical_grounder_is_unsure_of(run: R
     found = {p["prim_path"]: p for p in json.loads(done.out)["predictions"]}
     assert found["/Kitchen/mug_1"]["grounder"] == "lexical"
     assert {found[f"/Kitchen/qzxv_{n}"]["class_iri"].rpartition("#")[2] for n in range(20)} == {"Cup"}
-    assert " objects in 1 prompts: 1 new completions" in done.err
+    assert " objects in 1 prompt: 1 new completion," in done.err
 
 
 def test_dry_run_prints_prompts_without_requests(run: Run, kitchen: Path):
@@ -171,14 +171,14 @@ class TestTraffic:
         with serve(refuse(429, "slow down", Retry_After="0"), openai_reply(cup())) as server:
             model = f"llm-A:openai:test@{server.url}/v1"
             done = run("ground", kitchen, "--grounder", model, "--concurrency", "1")
-        assert "; 3 requests sent, 1 retries, 1 waits of 0.0 s in total; " in done.err
+        assert "; 3 requests sent, 1 retried, 1 wait of 0.0 s in total; " in done.err
 
     def test_limits_the_request_rate(self, run: Run, kitchen: Path):
         with serve(openai_reply(cup())) as server:
             model = f"llm-A:openai:test@{server.url}/v1"
             done = run("ground", kitchen, "--grounder", model, "--requests-per-minute", "600", "--each-object")
         # The second and third request are due after 0.1 s and 0.2 s.
-        assert re.search(r"; 3 requests sent, 0 retries, [12] waits of 0\.[123] s in total; ", done.err)
+        assert re.search(r"; 3 requests sent, 0 retried, [12] waits? of 0\.[123] s in total; ", done.err)
 
     @pytest.mark.parametrize("most", [1, 3])
     def test_limits_concurrent_requests(self, run: Run, kitchen: Path, most: int):
@@ -189,7 +189,7 @@ class TestTraffic:
 
     def test_replay_sends_no_request(self, run: Run, kitchen: Path):
         done = run("ground", kitchen, "--grounder", "llm-A:openai:gpt-4o", "--replay")
-        assert "; 0 requests sent, 0 retries, 0 waits of 0.0 s in total; " in done.err
+        assert "; 0 requests sent, 0 retried, 0 waits of 0.0 s in total; " in done.err
 
 
 def test_cuts_off_a_degenerate_completion_and_estimates_its_tokens(run: Run, kitchen: Path):
@@ -248,7 +248,7 @@ def test_cascade_asks_only_about_uncertain_objects(run: Run, write_stage):
         plan = run("ground", scene, "--grounder", model, "--cascade", "0.8", "--dry-run")
         done = run("ground", scene, "--grounder", model, "--cascade", "0.8")
         assert len(server.received) == 1
-    assert "1 prompts for 1 objects" in plan.err
+    assert "1 prompt for 1 object," in plan.err
     assert classes(done.out) == {"/Kitchen/Cup": "Cup", "/Kitchen/xqzv": "Bowl"}
     assert done.err.splitlines()[0].split() == ["tier", "objects", "tokens", "price", "seconds"]
     assert [line.split()[:2] for line in done.err.splitlines()[1:3]] == [["lexical", "1"], ["llm", "1"]]
@@ -404,7 +404,7 @@ class TestAlignment:
         assert (first.code, first.out) == (0, "")
         assert "prompt without all answers: the answer has no row for 2 of 3 classes" in first.err
         assert f"3 rows about 1 of 3 classes by {model}" in first.err
-        assert "1 prompts: 1 new completions, 0 cached, 0 prompts failed; 1 requests sent" in first.err
+        assert "1 prompt: 1 new completion, 0 cached, 0 prompts failed; 1 request sent" in first.err
         text = (tmp_path / "lab.sssom.tsv").read_text("utf-8")
         assert "flux capacitor\trdfs literal\tskos:exactMatch" in text
         assert KEY not in text + first.err
@@ -471,4 +471,4 @@ def test_one_completion_is_enough(run: Run, kitchen: Path):
     with serve(openai_reply(cup()), refuse(401, "bad key")) as server:
         done = run("ground", kitchen, "--grounder", f"llm-B:openai:x@{server.url}/v1", "--concurrency", "1")
     assert done.code == 0
-    assert "1 prompts failed" in done.err
+    assert "1 prompt failed" in done.err

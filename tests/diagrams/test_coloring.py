@@ -205,7 +205,7 @@ def test_the_command_colours_by_support(kitchen, tmp_path):
 def test_the_command_highlights_an_answer(kitchen, tmp_path):
     target = tmp_path / "k.png"
     result = invoke(kitchen, "-o", target, "--ask", "what stands on the table?", "--size", "160x120")
-    assert "1 objects" in result.stderr
+    assert "; 1 object\n" in result.stderr
     picture = pixels_of(target.read_bytes())[:, :160]
     assert 0.005 < share_of(picture, COLORS.answer) < 0.2
 

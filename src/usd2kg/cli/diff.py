@@ -13,7 +13,7 @@ from usd2kg.cli.limits import CHANGES_PER_KIND
 from usd2kg.cli.options.bundles import OptionBundle, check_files, expand_bundles
 from usd2kg.cli.options.common import JsonOutput, OntologyFile, TextFile
 from usd2kg.cli.options.stage import StageOptions
-from usd2kg.cli.output import emit, notify, notify_notes, print_json, to_single_line
+from usd2kg.cli.output import count_noun, emit, notify, notify_notes, print_json, to_single_line
 from usd2kg.errors import GraphError
 
 if TYPE_CHECKING:
@@ -166,7 +166,7 @@ def _write_update(before: "Version", after: "Version", title: str, graph: str | 
             f"base: the namespaces of the individuals differ, <{bases[0]}> and <{bases[1]}>, so the update replaces "
             "nearly every statement; build both graphs with the same --base"
         )
-    counts = f"{update.deleted} statements deleted, {update.inserted} inserted"
+    counts = f"{count_noun(update.deleted, 'statement')} deleted, {update.inserted} inserted"
     emit(f"# {title}: {counts}\n{update.text}", output)
     notify(counts)
     return not update.text

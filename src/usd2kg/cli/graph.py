@@ -8,7 +8,7 @@ import typer
 from typer import Argument, Option
 
 from usd2kg.cli.options.stores import GraphSource, SceneName
-from usd2kg.cli.output import notify
+from usd2kg.cli.output import count_noun, notify
 from usd2kg.errors import GraphError, OutputError
 from usd2kg.files import check_apart, check_writable, write_whole
 from usd2kg.tracing import span
@@ -158,7 +158,7 @@ def _export_tf(read: _Read, source: Path, folder: Path, frame: str) -> str:
     exported = read()
     with span("export"):
         count = write_tf(exported, folder, frame)
-    return f"{count} transforms written to {folder}: {', '.join(TF_FILES)}"
+    return f"{count_noun(count, 'transform')} written to {folder}: {', '.join(TF_FILES)}"
 
 
 def _export_ros2(read: _Read, source: Path, folder: Path, frame: str) -> str:
@@ -169,7 +169,8 @@ def _export_ros2(read: _Read, source: Path, folder: Path, frame: str) -> str:
     exported = read()
     with span("export"):
         detections, relations = write_ros2(exported, folder, frame)
-    return f"{detections} detections and {relations} relations written to {folder}: {', '.join(ROS2_FILES)}"
+    counts = f"{count_noun(detections, 'detection')} and {count_noun(relations, 'relation')}"
+    return f"{counts} written to {folder}: {', '.join(ROS2_FILES)}"
 
 
 _EXPORTERS = {"neo4j": _export_neo4j, "tf": _export_tf, "ros2": _export_ros2}

@@ -150,7 +150,7 @@ def _scene_text(scene: "Scene", shapes: "Mapping[str, ShapeDescriptors] | None")
     frame = scene.frame
     unit = "authored" if frame.is_authored else "fallback, not authored"
     lines = [
-        f"\n{len(scene.objects)} objects among {scene.prim_count} prims; "
+        f"\n{count_noun(len(scene.objects), 'object')} among {count_noun(scene.prim_count, 'prim')}; "
         f"1 stage unit = {frame.metres_per_unit:g} m ({unit}), {frame.up_axis} up\n"
     ]
     if counts := list(_counts(scene)):

@@ -6,7 +6,7 @@ from decimal import Decimal
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from usd2kg.cli.output import emit, notify, replace_controls
+from usd2kg.cli.output import count_noun, emit, notify, replace_controls
 from usd2kg.cli.text_table import format_table
 
 if TYPE_CHECKING:
@@ -31,7 +31,7 @@ def print_prompts(batches: "list[Batch]", object_count: int, tariff: "Tariff | N
     per_object = tokens / max(1, object_count)
     price = "price unknown" if tariff is None else f"about {format_price(sum(map(tariff, usages), Decimal(0)))}"
     notify(
-        f"{len(batches)} prompts for {object_count} objects, about {tokens:,} input tokens "
+        f"{count_noun(len(batches), 'prompt')} for {count_noun(object_count, 'object')}, about {tokens:,} input tokens "
         f"({per_object:,.0f} per object) and {sum(usage.output_tokens for usage in usages):,} output tokens, {price}"
     )
 
@@ -54,17 +54,19 @@ def report_cost(report: "RunReport", grounding: "Grounding") -> None:
     """Print to stderr, on one line, the completions, requests, tokens, price and time of a run."""
     unclassified = sum(1 for prediction in grounding.predictions if prediction.class_iri is None)
     notify(
-        f"{report.objects} objects in {report.prompts} prompts: {report.completions} new completions, "
-        f"{report.cached} cached, {report.repairs} repairs, {report.degenerate} degenerate, "
-        f"{report.failed} prompts failed, {unclassified} objects without a class; {_traffic_text(report)}"
+        f"{count_noun(report.objects, 'object')} in {count_noun(report.prompts, 'prompt')}: "
+        f"{count_noun(report.completions, 'new completion')}, {report.cached} cached, "
+        f"{count_noun(report.repairs, 'repair')}, {report.degenerate} degenerate, "
+        f"{count_noun(report.failed, 'prompt')} failed, {count_noun(unclassified, 'object')} without a class; "
+        f"{_traffic_text(report)}"
     )
 
 
 def report_prompts(report: "RunReport") -> None:
     """Print to stderr, on one line, the completions, requests, tokens, price and time of prompts without objects."""
     notify(
-        f"{report.prompts} prompts: {report.completions} new completions, {report.cached} cached, "
-        f"{report.failed} prompts failed; {_traffic_text(report)}"
+        f"{count_noun(report.prompts, 'prompt')}: {count_noun(report.completions, 'new completion')}, "
+        f"{report.cached} cached, {count_noun(report.failed, 'prompt')} failed; {_traffic_text(report)}"
     )
 
 
@@ -76,9 +78,10 @@ def _traffic_text(report: "RunReport") -> str:
     estimated = f" ({usage.estimated_tokens:,} of all estimated)" if usage.estimated_tokens else ""
     price = "price unknown" if report.price is None else format_price(report.price)
     return (
-        f"{traffic.attempts} requests sent, {traffic.retries} retries, {traffic.waits} waits "
-        f"of {traffic.waited_s:.1f} s in total; {usage.input_tokens:,} input tokens "
-        f"({usage.cached_tokens:,} cached by the provider), {usage.output_tokens:,} output tokens{estimated}, {price}, "
+        f"{count_noun(traffic.attempts, 'request')} sent, {traffic.retries} retried, "
+        f"{count_noun(traffic.waits, 'wait')} of {traffic.waited_s:.1f} s in total; "
+        f"{usage.input_tokens:,} input tokens ({usage.cached_tokens:,} cached by the provider), "
+        f"{usage.output_tokens:,} output tokens{estimated}, {price}, "
         f"{report.seconds:.1f} s"
     )
 
@@ -101,4 +104,5 @@ def report_tiers(grounding: "Grounding", cascade: "CascadeGrounder | None", mode
         rows.append((name, str(count), tokens, price, f"{seconds[name]:.1f}" if name in seconds else ""))
     notify(format_table(("tier", "objects", "tokens", "price", "seconds"), rows).rstrip())
     if cascade is not None and cascade.report.kept:
-        notify(f"the model had no class for {cascade.report.kept} objects; they keep the class of the first tier")
+        kept = count_noun(cascade.report.kept, "object")
+        notify(f"the model had no class for {kept}; the first tier's class is kept")

@@ -4,7 +4,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from usd2kg.cli.options.coloring import ColorOptions
-from usd2kg.cli.output import notify
+from usd2kg.cli.output import count_noun, notify
 
 if TYPE_CHECKING:
     from usd2kg.diagrams import Coloring, ColorMode
@@ -43,5 +43,5 @@ def find_colors(source: Path, reading: "ReadOptions", mode: "ColorMode", options
     graph = instantiate(scene, tbox, grounding, relations=relations)
     asked = ask_offline(GraphStore.from_triples(graph.triples, scene.source), options.ask or "")
     found = find_prim_paths(asked.answer, graph.base, scene.by_path)
-    notify(f"understood as: {asked.understood}; {len(found)} objects")
+    notify(f"understood as: {asked.understood}; {count_noun(len(found), 'object')}")
     return color_by_answer([obj.prim_path for obj in scene.objects], found)

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Annotated
 from typer import Argument, Option
 
 from usd2kg.cli.options.common import OntologyFile, ReportFolder
-from usd2kg.cli.output import emit, notify
+from usd2kg.cli.output import count_noun, emit, notify
 from usd2kg.errors import EvaluationError
 
 if TYPE_CHECKING:
@@ -70,7 +70,7 @@ def _progress(total: int) -> "Callable[[CellResult], None]":
         cell, summary = result.cell, result.evaluation.summary
         stored = " (stored)" if result.was_stored else ""
         figures = f"EMA {summary.ema:.1f} HF1 {summary.hf1:.2f}"
-        failed = f" ({len(result.failures)} objects failed)" if result.failures else ""
+        failed = f" ({count_noun(len(result.failures), 'object')} failed)" if result.failures else ""
         notify(
             f"[{next(numbers)}/{total}] {cell.scene.name}, {cell.grounder}, {cell.condition}: {figures}{stored}{failed}"
         )
@@ -94,7 +94,9 @@ def kitchen_set_command(
 
     found = check_kitchen_set(folder)
     scene = read_scene(found.root)
-    counts = f"{found.layer_count} layers, {len(scene.objects)} objects (the study has {_OBJECTS_IN_STUDY})"
+    counts = (
+        f"{found.layer_count} layers, {count_noun(len(scene.objects), 'object')} (the study has {_OBJECTS_IN_STUDY})"
+    )
     notify(f"{found.root}: {counts}")
     if gold is None:
         emit("".join(f"{obj.prim_path}\n" for obj in scene.objects))
