@@ -23,6 +23,15 @@ from usd2kg.errors import GraphError
 from usd2kg.query import GraphStore
 
 TABLE = Path(__file__).parent / "questions.csv"
+SCENES = {
+    "office": ROOT / "benchmarks/scenes/office/office.usda",
+    "small_house": SHARED / "scenes/aws_robomaker/small_house.usdc",
+    "bookstore": SHARED / "scenes/aws_robomaker/bookstore.usdc",
+    "warehouse": SHARED / "scenes/aws_robomaker/small_warehouse.usdc",
+    "franka": SHARED / "scenes/franka_kitchen/franka_kitchen.usdc",
+    "apartment": SHARED / "scenes/iai_apartment/apartment.usdc",
+}
+"""Name in the table → stage, but for the demo kitchen."""
 RIGHT, WRONG, REFUSED = "right", "wrong", "refused"
 
 
@@ -30,11 +39,12 @@ def main() -> None:
     """Ask, score and print."""
     parser = argparse.ArgumentParser(description="Score answers to questions in people's own words.")
     parser.add_argument("--split", choices=("train", "test"), default="train")
+    parser.add_argument("--scenes", nargs="+", choices=("kitchen", *SCENES), help="default: all scenes")
     parser.add_argument("--show", action="store_true", help="list the questions that are not answered right")
     options = parser.parse_args()
     outcomes: dict[str, Counter[str]] = {}
     for row in csv.DictReader(TABLE.open(encoding="utf-8", newline="")):
-        if row["split"] != options.split:
+        if row["split"] != options.split or (options.scenes and row["scene"] not in options.scenes):
             continue
         graph = open_scene(row["scene"])
         if graph is None:
@@ -55,15 +65,10 @@ def main() -> None:
 @cache
 def open_scene(name: str) -> GraphStore | None:
     """Return the graph of a scene; None if it is absent."""
-    if name == "kitchen":
-        scene: Any = demo_scene()
-    elif name == "office":
-        scene = ROOT / "benchmarks/scenes/office/office.usda"
-    else:
-        scene = SHARED / "scenes" / "aws_robomaker" / "small_house.usdc"
-        if not scene.exists():
-            print(f"not measured: {name}, {scene} is missing")
-            return None
+    scene: Any = demo_scene() if name == "kitchen" else SCENES[name]
+    if isinstance(scene, Path) and not scene.exists():
+        print(f"not measured: {name}, {scene} is missing")
+        return None
     path = Path("build") / "questions" / f"{name}.ttl"
     path.parent.mkdir(parents=True, exist_ok=True)
     usd2kg.write_graph(usd2kg.build(scene).graph, path)

@@ -4,10 +4,10 @@ import pytest
 
 from tests.graph.records import build_graph, open_store, thing
 from usd2kg.assistant import ask_offline
-from usd2kg.assistant.comparisons import _read_amount, _read_sides
 from usd2kg.errors import GraphError
 from usd2kg.ontology import TBox
 from usd2kg.query import GraphStore
+from usd2kg.query.lookup.amounts import read_amount, read_sides
 
 ROOM = [
     (thing("/R/Floor", (-3, -3, -0.1), (6, 6, 0.1)), "Floor"),
@@ -107,7 +107,7 @@ def test_all_things_of_a_kind_are_compared(room: GraphStore, question: str, sent
         ("what is heavier than 4 metres?", "expected a number with kg"),
         ("which things are larger than 2 m?", "does not measure what is larger"),
         ("what is heavier, the floor or the chair?", "no mass for floor"),
-        ("does a box of 40 by 30 by 20 kg fit on the table?", "expected three lengths"),
+        ("does a box of 40 by 30 by 20 kg fit on the table?", "expected two or three lengths"),
         ("does the cup fit on the wardrobe?", "nothing stands on wardrobe"),
         ("how far apart are the chairs?", "there are 1 chairs; expected two"),
         ("are the cups on a table or on a chair?", "is not understood"),
@@ -126,6 +126,6 @@ def test_a_question_with_a_connective_is_not_answered_by_absence(room: GraphStor
 
 
 def test_amounts_and_sides():
-    assert _read_amount("12 inches") == (pytest.approx(0.3048), "m")
-    assert _read_amount("2 lbs") == (pytest.approx(0.90718474), "kg")
-    assert _read_sides("1 m x 30 cm x 20 cm") == (1.0, pytest.approx(0.3), pytest.approx(0.2))
+    assert read_amount("12 inches") == (pytest.approx(0.3048), "m")
+    assert read_amount("2 lbs") == (pytest.approx(0.90718474), "kg")
+    assert read_sides("1 m x 30 cm x 20 cm") == (1.0, pytest.approx(0.3), pytest.approx(0.2))

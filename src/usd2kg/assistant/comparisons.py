@@ -1,14 +1,11 @@
 """Answers that compare things: superlatives, two things, numbers of things, limits, and whether something fits."""
 
-import re
 from collections.abc import Callable
 from itertools import product
 
-from usd2kg.assistant.body_measures import COMPARED, ELEVATION, MASS, SAME, SIZE, SUPERLATIVES, BodyMeasures, Measure
 from usd2kg.assistant.free_places import find_free_places
 from usd2kg.assistant.interpreted_answer import InterpretedAnswer
 from usd2kg.assistant.sentences import (
-    NUMBER_WORDS,
     begin_sentence,
     count_phrase,
     join_few,
@@ -16,13 +13,12 @@ from usd2kg.assistant.sentences import (
     number_text,
     yes_or_no,
 )
-from usd2kg.assistant.units import UNIT_SIZES, UNIT_SYMBOLS
 from usd2kg.errors import GraphError
 from usd2kg.query.lookup import Nouns, SceneFacts
+from usd2kg.query.lookup.amounts import NUMBER_WORDS, read_amount, read_sides
+from usd2kg.query.lookup.body_measures import COMPARED, ELEVATION, MASS, SAME, SIZE, SUPERLATIVES, BodyMeasures, Measure
 
 __all__ = ["ComparisonAnswers"]
-
-_AMOUNT = re.compile(r"(?P<number>\d*\.?\d+) ?(?P<unit>[a-z\"]*)", re.IGNORECASE)
 
 
 class ComparisonAnswers:
@@ -142,7 +138,7 @@ class ComparisonAnswers:
         things = self._nouns.find(kind)
         adjective = {"more": "heavier", "less": "lighter"}.get(adjective.lower(), adjective.lower())
         measure, sign = COMPARED[adjective]
-        value, unit = _read_amount(amount)
+        value, unit = read_amount(amount)
         if measure is SIZE or unit != measure.unit:
             raise GraphError(f"{amount!r} does not measure what is {adjective}; expected a number with {measure.unit}")
         values = self._bodies.values(things.iris, measure)
@@ -168,7 +164,7 @@ class ComparisonAnswers:
         moved: tuple[str, ...] = ()
         if sides:
             name = f"a box of {sides}"
-            width, depth, height = _read_sides(sides)
+            width, depth, height = read_sides(sides)
         else:
             things = self._nouns.existing(thing)
             name, moved = things.text, things.iris
@@ -195,33 +191,3 @@ def _range_text(low: float, high: float, measure: Measure) -> str:
     """Return a range of measures: 31 cm, 31 cm to 1.2 m; sizes without their unit, m³."""
     ends = [f"{end**3:.3g}" if measure is SIZE else number_text(end, measure.unit) for end in (low, high)]
     return " to ".join(dict.fromkeys(ends))
-
-
-def _read_amount(text: str) -> tuple[float, str]:
-    """Return a quantity in metres or kilograms, and that unit.
-
-    >>> _read_amount("40 cm"), _read_amount("500 g")
-    ((0.4, 'm'), (0.5, 'kg'))
-    """
-    found = _AMOUNT.fullmatch(text.strip())
-    symbol = UNIT_SYMBOLS.get(found["unit"].lower()) if found is not None else None
-    if found is None or symbol is None:
-        raise GraphError(
-            f"{text!r} is not understood as an amount; expected a number with a unit, such as 40 cm or 2 kg"
-        )
-    unit, size = UNIT_SIZES[symbol]
-    return float(found["number"]) * size, unit
-
-
-def _read_sides(text: str) -> tuple[float, float, float]:
-    """Return width, depth and height in metres; a unit after the last number holds for all.
-
-    >>> _read_sides("40 by 30 by 20 cm")
-    (0.4, 0.3, 0.2)
-    """
-    parts = re.split(r" ?(?:by|x|×) ?", text.strip())
-    unit = re.sub(r"[\d. ]", "", parts[-1])
-    sides = [_read_amount(part if re.search(r"[a-z\"]", part) else f"{part} {unit}") for part in parts]
-    if len(sides) != 3 or any(unit != "m" for _, unit in sides):
-        raise GraphError(f"{text!r} is not understood as a size; expected three lengths, such as 40 by 30 by 20 cm")
-    return sides[0][0], sides[1][0], sides[2][0]

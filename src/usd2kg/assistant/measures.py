@@ -4,15 +4,19 @@ from collections.abc import Callable
 
 import numpy as np
 
-from usd2kg.assistant.body_measures import MASS, MEASURES, SIZE, BodyMeasures
 from usd2kg.assistant.free_places import find_free_places
 from usd2kg.assistant.interpreted_answer import InterpretedAnswer
-from usd2kg.assistant.sentences import begin_sentence, join_few, join_words, name_things, number_text
+from usd2kg.assistant.sentences import begin_sentence, join_few, join_words, name_things, number_text, yes_or_no
 from usd2kg.assistant.settings import PLACING
 from usd2kg.errors import GraphError
+from usd2kg.grounding import concepts_named
 from usd2kg.knowledge import word_map, word_set
+from usd2kg.query.body_table import Body
 from usd2kg.query.lookup import Nouns, SceneFacts, UnknownWordError
+from usd2kg.query.lookup.amounts import read_sides
+from usd2kg.query.lookup.body_measures import MASS, MEASURES, SIZE, BodyMeasures, Measure
 from usd2kg.query.lookup.colors import COLORS, has_color, has_material, is_material, material_words, own_colors
+from usd2kg.query.lookup.word_forms import split_phrase
 from usd2kg.query.settings import WORDS
 
 __all__ = ["MeasureAnswers"]
@@ -37,7 +41,6 @@ class MeasureAnswers:
         handlers: dict[str, Handler] = {
             "measure": self._measure,
             "weigh": lambda thing: self._measure(thing, "heavy"),
-            "distance": self._distance,
             "color": self._color,
             "material": self._material,
             "are-color": self._are_like,
@@ -45,13 +48,20 @@ class MeasureAnswers:
             "purpose": self._purpose,
             "put": self._put,
             "openable": self._openable,
+            "is-openable": self._is_openable,
+            "put-size": self._put_size,
+            "where-to": self._where_to,
             "sure": self._sure,
             "unknown": self._unknown,
         }
         return handlers.get(question)
 
     def _measure(self, thing: str, adjective: str = "size") -> InterpretedAnswer:
-        things, measure = self._nouns.existing(thing), MEASURES[adjective.lower()]
+        word = adjective.lower()
+        measure = MEASURES[word_map("assistant", "foreign_measures").get(word, word)]
+        if measure is not MASS and self._nouns.is_whole_scene(" ".join(split_phrase(thing))):
+            return self._measure_scene(thing, measure)
+        things = self._nouns.existing(thing)
         values = self._bodies.values(things.iris, measure)
         if not values:
             raise self._bodies.unmeasured(things, measure)
@@ -75,19 +85,24 @@ class MeasureAnswers:
             sentence=sentence,
         )
 
-    def _distance(self, thing: str, other: str) -> InterpretedAnswer:
-        first, second = self._nouns.existing(thing), self._nouns.existing(other)
-        gaps = self._bodies.gaps(first.iris, second.iris)
-        if not gaps:
-            raise GraphError(f"not known: the graph has no boxes for {first.text} and {second.text}")
-        facts = self._facts
-        parts = [f"{facts.label(iri)} is {number_text(gap, 'm')} from {second.text}" for iri, gap in gaps.items()]
-        sentence = f"{join_few(parts)}, from side to side{first.suffix}{second.suffix}."
-        table = facts.table(sorted(gaps, key=lambda iri: gaps[iri]), gap_m=gaps)
+    def _measure_scene(self, text: str, measure: Measure) -> InterpretedAnswer:
+        """Return a measure of the box around the walls and floors, or around all things if there are none."""
+        shells = {iri for noun in ("floor", "wall") for iri in self._nouns.find(noun).iris}
+        bodies = [self._facts.body(iri) for iri in shells or self._facts.things]
+        lower = [body.lower for body in bodies if body.lower is not None]
+        upper = [body.upper for body in bodies if body.upper is not None]
+        if not lower:
+            raise GraphError("not known: the graph has no boxes")
+        start, end = np.min(lower, axis=0), np.max(upper, axis=0)
+        x, y, z = (float(side) for side in end - start)
+        shortest, middle, longest = sorted((x, y, z))
+        value = measure.of(Body(start, end, (shortest, middle, longest), None))
+        of = "walls and floors" if shells else "all things"
+        sentence = f"The {of} of the scene measure {x:.2f} × {y:.2f} × {z:.2f} m along x, y and z."
         return InterpretedAnswer(
-            f"the gap between {first.text} and {second.text}, in metres",
-            table,
-            number=min(gaps.values()),
+            f"how {measure.name}: {text}",
+            self._facts.table(self._facts.sorted(shells)),
+            number=value,
             sentence=sentence,
         )
 
@@ -147,25 +162,30 @@ class MeasureAnswers:
         if word in COLORS or is_material(word):
             return self._are_like("things", word)
         things = self._nouns.find(kind)
+        if not things.iris and not concepts_named(things.text):
+            # A monthly rent: words that name things, and together none.
+            raise UnknownWordError(f"{things.text!r} is not a thing that the lexicon knows")
         sentence = begin_sentence(f"{name_things(self._facts, things.iris) or f'no {things.text}'}.")
         return InterpretedAnswer(f"all {things.text}", self._facts.table(things.iris), sentence=sentence)
 
     def _purpose(self, kind: str) -> InterpretedAnswer:
         """Return the things for a purpose: those of the kinds that the purpose names."""
-        word = word_map("assistant", "purpose_verbs").get(kind.lower(), kind.lower())
-        found: set[str] = set()
-        known = False
-        for noun in sorted(word_set("assistant", "purpose_nouns")):
-            try:
-                found.update(self._nouns.find(f"{word} {noun}").iris)
-                known = True
-            except UnknownWordError:
-                continue
-        if not known:
-            raise UnknownWordError(f"{kind!r} is not understood as a purpose")
-        chosen = self._facts.sorted(found)
-        sentence = f"{name_things(self._facts, chosen) or 'nothing'} {'is' if len(chosen) == 1 else 'are'} for {word}."
-        return InterpretedAnswer(f"things for {word}", self._facts.table(chosen), sentence=begin_sentence(sentence))
+        things, facts = self._nouns.for_purpose(kind), self._facts
+        named, verb = name_things(facts, things.iris) or "nothing", "is" if len(things.iris) < 2 else "are"
+        sentence = begin_sentence(f"{named} {verb} {things.text.removeprefix('things ')}.")
+        return InterpretedAnswer(things.text, facts.table(things.iris), sentence=sentence)
+
+    def _where_to(self, verb: str) -> InterpretedAnswer:
+        """Return the things that an activity needs: a sink to wash, a bed to sleep."""
+        noun = word_map("assistant", "activity_things").get(verb.lower())
+        things = self._nouns.find(noun) if noun is not None else self._nouns.for_purpose(verb)
+        if not things.iris:
+            return InterpretedAnswer(
+                f"where to {verb}", self._facts.table(()), sentence=f"{begin_sentence(things.absence)}."
+            )
+        places = tuple(map(self._facts.path, things.iris))
+        sentence = begin_sentence(f"to {verb}: {name_things(self._facts, things.iris)}.")
+        return InterpretedAnswer(f"where to {verb}", self._facts.table(things.iris), sentence=sentence, places=places)
 
     def _put(self, thing: str) -> InterpretedAnswer:
         things, facts = self._nouns.find(thing), self._facts
@@ -174,28 +194,34 @@ class MeasureAnswers:
         if body is None or body.lower is None or body.upper is None:
             raise GraphError(f"not known: the graph has no box for {things.text}, so its size is unknown")
         width, depth, height = (float(side) for side in body.upper - body.lower)
+        return self._free_tops(things.text, (width, depth, height), things.iris)
+
+    def _put_size(self, sides: str) -> InterpretedAnswer:
+        return self._free_tops(f"a thing of {sides}", read_sides(sides), ())
+
+    def _free_tops(self, text: str, size: tuple[float, float, float], moved: tuple[str, ...]) -> InterpretedAnswer:
+        """Return the level tops with room for a thing of a size in metres; `moved` takes no room."""
+        facts, (width, depth, _) = self._facts, size
         floors = set(self._nouns.find("floor").iris)
-        surfaces = [
-            iri for iri in facts.things if iri in facts.supporters and iri not in things.iris and iri not in floors
-        ]
+        surfaces = [iri for iri in facts.things if iri in facts.supporters and iri not in moved and iri not in floors]
         usual = {iri for noun in sorted(word_set("assistant", "surface_nouns")) for iri in self._nouns.find(noun).iris}
-        found = find_free_places(facts, (width, depth, height), surfaces, things.iris)
+        found = find_free_places(facts, size, surfaces, moved)
         # A seat and a rug are level too, but people put things on tables.
         places = ([place for place in found if place.surface in usual] or found)[: PLACING.max_places]
         if not places:
-            sentence = f"No level top has room for {things.text} ({width:.2f} × {depth:.2f} m)."
-            return InterpretedAnswer(f"where to put {things.text}", facts.table(()), sentence=sentence)
+            sentence = f"No level top has room for {text} ({width:.2f} × {depth:.2f} m)."
+            return InterpretedAnswer(f"where to put {text}", facts.table(()), sentence=sentence)
         spots = {place.surface: " ".join(f"{value:g}" for value in place.position) for place in places}
         first = places[0]
         x, y, z = first.position
         rest = f"; also on {join_words([facts.label(one.surface) for one in places[1:]])}" if len(places) > 1 else ""
         sentence = begin_sentence(
-            f"{things.text} ({width:.2f} × {depth:.2f} m) has room on the {facts.kind(first.surface)} "
+            f"{text} ({width:.2f} × {depth:.2f} m) has room on the {facts.kind(first.surface)} "
             f"{facts.label(first.surface)}, at ({x:g}, {y:g}, {z:g}) m{rest}."
         )
         paths = tuple(facts.path(place.surface) for place in places)
         table = facts.table(spots, center_m=spots)
-        return InterpretedAnswer(f"where to put {things.text}", table, sentence=sentence, places=paths)
+        return InterpretedAnswer(f"where to put {text}", table, sentence=sentence, places=paths)
 
     def between_legs(self, anchor: str) -> list[str]:
         """Return what is below the top of a thing and over its footprint, and neither on, in nor a part of it.
@@ -217,22 +243,26 @@ class MeasureAnswers:
         own |= self._nouns.related("part", [anchor], is_direct=True)
         return [iri for row in np.flatnonzero(is_over & is_lower).tolist() if (iri := table.iris[row]) not in own]
 
-    def _openable(self) -> InterpretedAnswer:
-        facts = self._facts
-        by_joint = facts.opened_by_joint & set(facts.things)
-        if by_joint:
-            chosen = facts.sorted(by_joint)
-            return InterpretedAnswer(
-                "what a joint opens",
-                facts.table(chosen),
-                sentence=begin_sentence(f"{name_things(facts, chosen)} can be opened."),
-            )
-        found: set[str] = set()
-        for noun in word_set("assistant", "closed_things"):
-            found.update(self._nouns.find(noun).iris)
-        chosen = facts.sorted(found)
-        sentence = f"By what they are, since the stage has no joints: {name_things(facts, chosen) or 'nothing'}."
-        return InterpretedAnswer("things that open", facts.table(chosen), sentence=sentence)
+    def _openable(self, kind: str = "things") -> InterpretedAnswer:
+        """Return the things of a kind that a joint moves; without joints, those that open by what they are."""
+        things, facts = self._nouns.find(kind), self._facts
+        moved = facts.opened_by_joint & set(facts.things)
+        found = moved or {iri for noun in word_set("assistant", "closed_things") for iri in self._nouns.find(noun).iris}
+        if self._nouns.is_everything(kind):
+            chosen = facts.sorted(found)
+        else:
+            # A cabinet is opened by its door.
+            chosen = [iri for iri in things.iris if iri in found or not found.isdisjoint(self._nouns.parts([iri]))]
+        named = name_things(facts, chosen) or f"no {things.text}"
+        how = "" if moved else "by what they are, since the stage has no joints: "
+        sentence = begin_sentence(f"{how}{named} can be opened or moved{things.suffix}.")
+        return InterpretedAnswer(f"{things.text} that open", facts.table(chosen), bool(chosen), sentence=sentence)
+
+    def _is_openable(self, thing: str) -> InterpretedAnswer:
+        self._nouns.existing(thing)
+        found = self._openable(thing)
+        sentence = yes_or_no(bool(found.verdict), found.sentence)
+        return InterpretedAnswer(f"whether {thing} opens", found.answer, found.verdict, sentence=sentence)
 
     def _sure(self, thing: str, kind: str) -> InterpretedAnswer:
         things, facts = self._nouns.existing(thing), self._facts

@@ -4,9 +4,9 @@ from collections.abc import Callable, Collection, Mapping
 from dataclasses import replace
 from pathlib import Path
 
-from usd2kg.assistant.body_measures import BodyMeasures
 from usd2kg.assistant.comparisons import ComparisonAnswers
 from usd2kg.assistant.describe import description_answer
+from usd2kg.assistant.distances import DistanceAnswers
 from usd2kg.assistant.interpreted_answer import InterpretedAnswer
 from usd2kg.assistant.measures import MeasureAnswers
 from usd2kg.assistant.phrases import Phrase, match_phrase, normalize
@@ -24,13 +24,14 @@ from usd2kg.assistant.sentences import (
 from usd2kg.assistant.settings import SENTENCES
 from usd2kg.assistant.swept_space import find_in_the_way
 from usd2kg.assistant.thing_lists import ThingLists
-from usd2kg.assistant.units import UNIT_SYMBOLS
 from usd2kg.errors import GraphError
 from usd2kg.knowledge import word_map, word_set
 from usd2kg.query import Answer, GraphStore
 from usd2kg.query.answer import join_answers
 from usd2kg.query.lookup import Nouns, Things, UnknownWordError
-from usd2kg.query.lookup.word_forms import singular
+from usd2kg.query.lookup.amounts import UNIT_SYMBOLS
+from usd2kg.query.lookup.body_measures import BodyMeasures
+from usd2kg.query.lookup.word_forms import singular, split_phrase
 from usd2kg.query.questions import list_questions
 from usd2kg.query.unicode_text import check_text
 
@@ -65,6 +66,7 @@ class _Answerer:
         self._nouns = Nouns(self._facts, is_english=is_english)
         self._bodies = BodyMeasures(self._facts)
         self._measures = MeasureAnswers(self._facts, self._nouns)
+        self._distances = DistanceAnswers(self._facts, self._nouns)
         self._comparisons = ComparisonAnswers(self._facts, self._nouns)
         self._relations = RelationAnswers(graph, self._nouns, self._measures)
         self._things = ThingLists(self._facts, self._nouns)
@@ -75,7 +77,6 @@ class _Answerer:
         return {
             "about": self._about,
             "all": self._all,
-            "apart": self._apart,
             "changed": self._changed,
             "count": self._count,
             "has-parts": self._has_parts,
@@ -83,11 +84,14 @@ class _Answerer:
             "is-blocked": self._is_blocked,
             "is-there": self._is_there,
             "parts": self._parts,
+            "parts-list": self._parts_list,
             "parts-of": self._parts_of,
             "stands-on": self._stands_on,
             "to-open": self._to_open,
             "to-open-from": self._to_open,
             "where": self._where,
+            "which": self._which,
+            "with-parts": self._with_parts,
         }
 
     def answer(self, text: str, phrase: Phrase | None) -> InterpretedAnswer:
@@ -107,7 +111,13 @@ class _Answerer:
 
     def _answer_phrase(self, phrase: Phrase) -> InterpretedAnswer:
         question, given, _ = phrase
-        finders = (self._handlers.get, self._measures.find, self._comparisons.find, self._relations.find)
+        finders = (
+            self._handlers.get,
+            self._measures.find,
+            self._distances.find,
+            self._comparisons.find,
+            self._relations.find,
+        )
         handler = next((found for find in finders if (found := find(question)) is not None), None)
         if handler is None:
             return self._ready_question(question, given)
@@ -202,10 +212,25 @@ class _Answerer:
             sentence=sentence,
         )
 
-    def _apart(self, kind: str) -> InterpretedAnswer:
-        handler = self._measures.find("distance")
-        assert handler is not None, "distances are measured"
-        return handler(*self._relations.pair(kind))
+    def _parts_list(self, kind: str, thing: str) -> InterpretedAnswer:
+        if self._nouns.is_whole_scene(" ".join(split_phrase(thing))):
+            return self._all(kind)
+        return self._parts_of(kind, thing)
+
+    def _with_parts(self, kind: str, other: str, count: str = "") -> InterpretedAnswer:
+        """Return the things that have parts of a kind: any, or as many as the question names."""
+        number, noun = split_number(other)
+        things, parts = self._nouns.find(kind), set(self._nouns.find(noun).iris)
+        is_counted = bool(count) or noun != other
+        own = {iri: len(parts & self._nouns.parts([iri])) for iri in things.iris}
+        chosen = [iri for iri, many in own.items() if (many == number if is_counted else many)]
+        if not any(own.values()):
+            return self._which(kind, f"with {other}")
+        named = Things(tuple(chosen), f"{things.text} with {other}", things.note)
+        return self._things.answer(named)
+
+    def _which(self, kind: str, other: str) -> InterpretedAnswer:
+        return self._things.answer(self._nouns.find(f"{kind} {other}"))
 
     def _has_parts(self, kind: str, thing: str) -> InterpretedAnswer:
         found = self._parts_of(kind, thing)

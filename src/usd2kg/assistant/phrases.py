@@ -28,18 +28,18 @@ _PARAMETERS = {
     "relation": preposition_pattern(),
     "distance": r"<number> ?((milli|centi)?met(er|re)s?|mm|cm|m)?",
     "amount": r"<number> ?([a-z]+|\")",
-    "sides": r"<number>( ?[a-z]+)? ?(by|x|×) ?<number>( ?[a-z]+)? ?(by|x|×) ?<number> ?[a-z]+",
+    "sides": r"<number>( ?[a-z]+)? ?(by|x|×) ?<number>( ?[a-z]+)?( ?(by|x|×) ?<number> ?[a-z]+)?",
     "mass": r"<number> ?(kilos?|(kilo)?grams?|kg|g)?",
     "position": r"-?<number>,? +-?<number>,? +-?<number>",
 }
 _POLITE = re.compile(
-    r"(please|(can|could) you(?! (see|find|spot|have)\b)|would you|"
+    r"(please|pls|(can|could) you(?! (see|find|spot|have)\b)|would you|"
     r"tell me(?! about)|i want to know|i would like to know|do you know|hey|ok|so|"
     r"and|bitte|s'il te plaît|por favor|per favore),?\s+(please )?",
     re.IGNORECASE,
 )
 _TRAILING = re.compile(
-    r",?\s+(please|thanks|thank you|bitte|in total|altogether|all together|overall|in all|anywhere|at all|exactly|"
+    r",?\s+(please|pls|thanks|thank you|bitte|in total|altogether|all together|overall|in all|anywhere|at all|exactly|"
     r"right now|currently|for me)$",
     re.IGNORECASE,
 )
@@ -82,11 +82,14 @@ def match_phrase(text: str) -> Phrase | None:
     >>> match_phrase("Please tell me, what's on the table?")
     Phrase(question='rel-what', given={'relation': 'on', 'thing': 'the table'}, is_english=True)
     """
-    asked = normalize(text)
-    for question, pattern, is_english in list_phrases():
-        if found := pattern.fullmatch(asked):
-            given = {name: value.strip() for name, value in found.groupdict().items() if value}
-            return Phrase(question, given, is_english)
+    whole = normalize(text)
+    # A remark before or after the question: I have some rubbish, where can I throw it away?
+    clauses = [normalize(clause) for clause in re.split(r"[,;.!?:] ", whole)]
+    for asked in (whole, *(reversed(clauses) if len(clauses) > 1 else ())):
+        for question, pattern, is_english in list_phrases():
+            if found := pattern.fullmatch(asked):
+                given = {name: value.strip() for name, value in found.groupdict().items() if value}
+                return Phrase(question, given, is_english)
     return None
 
 
@@ -98,5 +101,8 @@ def normalize(text: str) -> str:
     while (shorter := _TRAILING.sub("", asked).strip(" ?!.,")) != asked:
         asked = shorter
     asked = _COMMENT.sub("", asked).strip(" ?!.,")
+    asked = re.sub(
+        r"\b(directly|exactly|immediately) (?=(above|below|under|over|on|in|behind|next|beside)\b)", "", asked
+    )
     asked = re.sub(r"\s+(right here|in here|here in this room)\b", "", asked, flags=re.IGNORECASE)
     return re.sub(r"^(what|where)(?:'s|s)\b", r"\1 is", asked, flags=re.IGNORECASE)

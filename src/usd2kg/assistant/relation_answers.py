@@ -47,7 +47,7 @@ class RelationAnswers:
         """Return the method that answers a question type; None if it is another's."""
         handlers: dict[str, Callable[..., InterpretedAnswer]] = {
             "between": self._between,
-            "between-two": lambda kind: self._between(*self.pair(kind)),
+            "between-two": lambda kind: self._between(*self._nouns.pair(kind)),
             "rel-count": self._rel_count,
             "rel-is": self._rel_is,
             "rel-some": self._rel_some,
@@ -89,6 +89,9 @@ class RelationAnswers:
         anchors = self._anchors(name, thing)
         understood = f"{'things' if what is None else what.text} {PREPOSITIONS[name]} {anchors.text}"
         found, note = self._by_relation(name, thing, anchors, is_direct=what is None), ""
+        if name == "inside" and what is None:
+            # The door of a microwave is a part of it, not what is in it.
+            found -= self._nouns.parts(anchors.iris)
         if not found and name in _BY_BOXES:
             found, note = self._by_boxes(name, anchors)
         if name == "on" and found.isdisjoint(found if what is None else what.iris):
@@ -113,11 +116,7 @@ class RelationAnswers:
 
     def _fixed_to(self, anchors: Sequence[str], *, with_parts: bool) -> set[str]:
         """Return what is fixed to things or to parts of them, and these parts on request."""
-        parts: set[str] = set()
-        waiting = {*anchors}
-        while waiting:
-            waiting = self._nouns.related("part", waiting, is_direct=True) - parts
-            parts |= waiting
+        parts = self._nouns.parts(anchors)
         fixed = self._nouns.related("attached", [*anchors, *parts], is_direct=True)
         return fixed | parts if with_parts else fixed
 
@@ -165,18 +164,6 @@ class RelationAnswers:
             raise GraphError(f"not known: the graph has no viewpoint, and the boxes around {anchors.text} suggest none")
         note = " (by boxes, as seen from among the surrounding objects)"
         return {iri for one in found for iri in one or ()}, note
-
-    def pair(self, kind: str) -> tuple[str, str]:
-        """Return the prim paths of the two things of a kind.
-
-        Raises:
-            GraphError: there are not two.
-        """
-        things = self._nouns.existing(kind)
-        if len(things.iris) != 2:
-            raise GraphError(f"there are {len(things.iris)} {things.text}; expected two, or the names of two")
-        one, other = map(self._facts.path, things.iris)
-        return one, other
 
     def _between(self, thing: str, other: str) -> InterpretedAnswer:
         first, second = self._nouns.existing(thing), self._nouns.existing(other)

@@ -5,10 +5,10 @@ from collections.abc import Sequence
 
 from usd2kg.assistant.settings import SENTENCES
 from usd2kg.query.lookup import SceneFacts
+from usd2kg.query.lookup.amounts import NUMBER_NAMES, NUMBER_WORDS
 from usd2kg.query.lookup.word_forms import IRREGULAR_PLURALS
 
 __all__ = [
-    "NUMBER_WORDS",
     "begin_sentence",
     "count_phrase",
     "join_few",
@@ -21,8 +21,6 @@ __all__ = [
     "yes_or_no",
 ]
 
-_NUMBERS = ("no", "one", "two", "three", "four", "five", "six", "seven", "eight", "nine", "ten", "eleven", "twelve")
-NUMBER_WORDS = {word: number for number, word in enumerate(_NUMBERS) if number}
 _SAME_PLURAL = frozenset(["cutlery", "equipment", "furniture", "scissors", "sheep", "stairs"])
 
 
@@ -67,7 +65,7 @@ def count_phrase(count: int, noun: str) -> str:
     """
     if count == 1:
         return f"{'an' if noun[:1].lower() in 'aeiou' else 'a'} {noun}"
-    number = _NUMBERS[count] if count < len(_NUMBERS) else str(count)
+    number = NUMBER_NAMES[count] if count < len(NUMBER_NAMES) else str(count)
     return f"{number} {plural(noun)}"
 
 

@@ -10,7 +10,7 @@ from usd2kg.grounding.registry import make_grounder
 from usd2kg.ontology import ClassIRI, TBox
 from usd2kg.scene import Scene
 
-__all__ = ["add_concepts", "apply_decisions", "concepts_named"]
+__all__ = ["add_concepts", "apply_decisions", "concepts_named", "hypernyms_of"]
 
 
 def add_concepts(
@@ -66,6 +66,14 @@ def concepts_named(noun: str) -> tuple[str, ...]:
     from usd2kg.grounding.lexical import recognition  # noqa: PLC0415
 
     return recognition.concepts_of_noun(noun)
+
+
+def hypernyms_of(noun: str) -> frozenset[str]:
+    """Return the labels of the usual sense of a noun and of all its hypernyms; empty for an unknown noun."""
+    from usd2kg.grounding.lexical import recognition  # noqa: PLC0415
+
+    described = recognition.describe_concepts(recognition.concepts_of_noun(noun)[:1])
+    return frozenset(concept.label for concept in described.values())
 
 
 def _classes_by_words(

@@ -47,6 +47,7 @@ class WordSettings:
     min_confidence: float
     min_similarity: float
     min_letters: int
+    max_label_share: float
 
 
 @dataclass(frozen=True)

@@ -2,6 +2,7 @@
 
 from usd2kg.query.lookup.facts import SceneFacts
 from usd2kg.query.lookup.kinds import Kinds
-from usd2kg.query.lookup.nouns import Nouns, Things, UnknownWordError
+from usd2kg.query.lookup.nouns import Nouns
+from usd2kg.query.lookup.things import Things, UnknownWordError
 
 __all__ = ["Kinds", "Nouns", "SceneFacts", "Things", "UnknownWordError"]

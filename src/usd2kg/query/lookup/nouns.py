@@ -2,25 +2,35 @@
 
 import os.path
 import re
-from collections.abc import Callable, Iterable, Iterator
-from dataclasses import dataclass, replace
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from dataclasses import replace
 from functools import cached_property
 
 import pyoxigraph as ox
 
 from usd2kg.errors import GraphError
-from usd2kg.grounding import concepts_named
+from usd2kg.grounding import concepts_named, hypernyms_of
 from usd2kg.knowledge import word_set
 from usd2kg.languages import translate
-from usd2kg.query.lookup.colors import COLORS, has_color, has_material, is_material
 from usd2kg.query.lookup.corrections import Spelling
 from usd2kg.query.lookup.facts import SceneFacts
 from usd2kg.query.lookup.kinds import Kinds
+from usd2kg.query.lookup.modifiers import PhraseModifiers, restricts
 from usd2kg.query.lookup.prepositions import RELATION_OF, preposition_pattern
-from usd2kg.query.lookup.word_forms import is_noun, is_plural, name_words, noun_words, singular, split_phrase
+from usd2kg.query.lookup.things import Things, UnknownWordError
+from usd2kg.query.lookup.word_forms import (
+    is_noun,
+    is_plural,
+    name_parts,
+    name_words,
+    noun_words,
+    singular,
+    split_phrase,
+)
+from usd2kg.query.settings import WORDS
 from usd2kg.words import split_identifier
 
-__all__ = ["Nouns", "Things", "UnknownWordError"]
+__all__ = ["Nouns"]
 
 _DETERMINERS = word_set("query", "determiners")
 _EVERYTHING = word_set("query", "general_nouns")
@@ -29,10 +39,10 @@ _AREAS = word_set("query", "area_nouns")
 _FRAMES = word_set("query", "framing_nouns")
 _CONNECTIVES = word_set("query", "connectives")
 _WHOLE_PLACES = word_set("query", "whole_places")
+_PLACE_KINDS = word_set("query", "place_kinds")
 _NUMBERS = word_set("query", "number_words")
 _ROOM_NOUNS = word_set("query", "room_nouns")
 _LANGUAGES = ("de", "fr", "es", "it")
-_SIZES = {"big": max, "large": max, "huge": max, "tall": max, "small": min, "little": min, "tiny": min, "short": min}
 _RELATIONS = ("on", "inside", "near", "above", "attached")
 """Relations in noun phrases: cups on the table."""
 _ORIGIN = {"from": "inside"}
@@ -43,33 +53,6 @@ _RELATION = re.compile(rf"(?P<first>.+?) (?:that (?:is|are) )?(?P<relation>{_PRE
 
 _Criterion = Callable[[], Iterable[str]]
 """Returns the objects that match a name in one way."""
-
-
-class UnknownWordError(GraphError):
-    """A word is neither a name in the graph nor a noun that the lexicon knows."""
-
-
-@dataclass(frozen=True)
-class Things:
-    """The objects that words mean; none if the words are understood and no object is meant."""
-
-    iris: tuple[str, ...]
-    text: str
-    """The words, without articles."""
-    note: str = ""
-    """How unusual words were read; empty if as they are."""
-    is_by_name: bool = False
-    """Whether the words only occur in the names of things that are something else: `shoes` in ShoeRack."""
-
-    @property
-    def suffix(self) -> str:
-        """The note, to be added to a sentence."""
-        return f" ({self.note})" if self.note else ""
-
-    @property
-    def absence(self) -> str:
-        """The clause that there are no such things."""
-        return f"there {'are' if is_plural(self.text) else 'is'} no {self.text} in this scene{self.suffix}"
 
 
 class Nouns:
@@ -86,6 +69,7 @@ class Nouns:
         self._is_english = is_english
         self._kinds = Kinds(facts)
         self._spelling = Spelling(facts, self._kinds)
+        self._modifiers = PhraseModifiers(facts, self._find)
         self._words_of_groups: dict[str, frozenset[str]] = {}
 
     def find(self, text: str) -> Things:
@@ -111,15 +95,45 @@ class Nouns:
             raise UnknownWordError(f"{foreign[0]!r} is not understood in a name")
         found = self._find(" ".join(words))
         if found is not None and found.iris:
-            return found
+            return self._of_this_name(text, found)
         for language in (None,) if self._is_english else _LANGUAGES:
             if (english := translate(tuple(words), language)) and set(english) != set(words):
-                translated = self._find(" ".join(english))
-                if translated is not None and translated.iris:
-                    return replace(translated, note=f"“{' '.join(words)}” was read as “{' '.join(english)}”")
+                translated = self._find(" ".join(english)) or self._of_head([*english])
+                if translated is not None and not translated.iris:
+                    translated = self._of_head([*english]) or translated
+                if translated is not None and (translated.iris or found is None):
+                    return replace(translated, note=f"“{' '.join(words)}” was read as “{translated.text}”")
         if len(words) > 1 and words[-1] in _FRAMES and (framed := self._find(" ".join(words[:-1]))) and framed.iris:
             return replace(framed, note=f"“{' '.join(words)}” was read as “{framed.text}”")
+        if not concepts_named(" ".join(words)) and (headed := self._of_head(words)) is not None:
+            return replace(headed, note=f"“{' '.join(words)}” was read as “{headed.text}”")
         return found or self._correct(words)
+
+    def _of_head(self, words: Sequence[str]) -> Things | None:
+        """Return the things of the last noun of a compound, or of its last two; None without such things."""
+        if not all(is_noun(word) and not restricts(word) for word in words[:-1]):
+            return None
+        heads = (" ".join(words[start:]) for start in range(1, len(words)))
+        return next((found for head in heads if (found := self._find(head)) is not None and found.iris), None)
+
+    def _of_this_name(self, text: str, found: Things) -> Things:
+        """Return the only things of several that are named by a definite singular noun: the computer, among tablets."""
+        noun = found.text
+        if not text.lower().startswith("the ") or len(found.iris) < 2 or is_plural(noun) or " " in noun:
+            return found
+        exact = tuple(iri for iri in found.iris if self._facts.kind(iri) == noun)
+        return replace(found, iris=exact) if exact else found
+
+    def for_purpose(self, verb: str) -> Things:
+        """Return the things for a purpose, those of the kinds that it names: cleaning equipment.
+
+        Raises:
+            UnknownWordError: the lexicon has no such kind.
+        """
+        found = self._modifiers.find_for_purpose(verb)
+        if found is None:
+            raise UnknownWordError(f"{verb!r} is not understood as a purpose")
+        return found
 
     def existing(self, text: str) -> Things:
         """Return the objects that a noun phrase means, at least one.
@@ -133,6 +147,18 @@ class Nouns:
             raise GraphError(things.absence)
         return things
 
+    def pair(self, kind: str) -> tuple[str, str]:
+        """Return the prim paths of the two things of a kind.
+
+        Raises:
+            GraphError: there are not two.
+        """
+        things = self.existing(kind)
+        if len(things.iris) != 2:
+            raise GraphError(f"there are {len(things.iris)} {things.text}; expected two, or the names of two")
+        one, other = map(self._facts.path, things.iris)
+        return one, other
+
     def _find(self, text: str) -> Things | None:
         """Return what a phrase means as it is written; None if a word is unknown."""
         if text in _EVERYTHING:
@@ -141,9 +167,16 @@ class Nouns:
             return Things(tuple(found), text)
         if (by_words := self._of_words(text)) is not None:
             return by_words
-        restricted = self._restricted(text) or self._modified(text)
-        if restricted is not None:
-            return restricted
+        readers = (
+            self._modifiers.read_superlative,
+            self._part_of,
+            self._restricted,
+            self._modifiers.read,
+            self._joined,
+        )
+        for read in readers:
+            if (restricted := read(text)) is not None:
+                return restricted
         is_name = bool(concepts_named(text)) or _CONNECTIVES.isdisjoint(text.split())
         # The noun is known, and no object is one.
         return Things((), text) if is_name and (is_noun(text) or self._kinds.find(text)) else None
@@ -154,9 +187,11 @@ class Nouns:
         exact: tuple[_Criterion, ...] = (
             lambda: facts.at_path(text),
             lambda: facts.labelled({text, lower, text.upper(), text.title(), text.capitalize()}),
+            lambda: self._with_run(text) if any(letter.isdigit() for letter in text) else (),
         )
         named: tuple[_Criterion, ...] = (
             lambda: facts.named(lower),
+            lambda: facts.named("".join(lower.split())) if " " in lower else (),
             lambda: self._with_words(names, is_whole=True) if len(words) > 1 and words == names else (),
             lambda: self._main_of_group(lower),
         )
@@ -177,6 +212,9 @@ class Nouns:
         """
         facts, names = self._facts, name_words(text)
         labelled = facts.sorted(self._with_words(names))
+        if len(labelled) > max(1, len(facts.things) * WORDS.max_label_share):
+            # The name of a project or an asset pack says nothing about single objects.
+            labelled = []
         if labelled and is_noun(text):
             head = singular(text.rsplit(maxsplit=1)[-1].lower())
             exact = [iri for iri in labelled if facts.concept(iri) is None or _head_of(facts.label(iri)) == head]
@@ -196,6 +234,14 @@ class Nouns:
             for iri, label in self._facts.with_words(words):
                 if words == noun_words(label) if is_whole else words <= name_words(label):
                     yield iri
+
+    def _with_run(self, text: str) -> Iterator[str]:
+        """Yield the objects whose label has the words and numbers of a text next to each other: cabinet 9."""
+        run = name_parts(text)
+        for iri, label in self._facts.with_words(run):
+            parts = name_parts(label)
+            if any(parts[at : at + len(run)] == run for at in range(len(parts) - len(run) + 1)):
+                yield iri
 
     def kinds(self, text: str) -> list[ox.NamedNode]:
         """Return the classes and concepts that a noun names.
@@ -245,6 +291,10 @@ class Nouns:
         words = noun_words(" ".join(word for word in split_phrase(text) if word not in _AREAS))
         return {iri for iri in self._facts.things if words and words <= self._group_words(self._group(iri))}
 
+    def is_everything(self, text: str) -> bool:
+        """Return whether a noun means any thing."""
+        return " ".join(split_phrase(text)) in _EVERYTHING
+
     def lacks_room(self, text: str) -> bool:
         """Return whether a noun means a room that the graph does not have."""
         noun = " ".join(split_phrase(text))
@@ -277,6 +327,29 @@ class Nouns:
         shown = f"{first.text} {parts['relation']} {parts['second']}"
         return Things(tuple(iri for iri in first.iris if iri in near), shown)
 
+    def _part_of(self, text: str) -> Things | None:
+        """Return the things that are parts of others, or of a group: `drawers of cabinet 10`."""
+        noun, _, whole = text.partition(" of ")
+        first = self._find(noun) if whole else None
+        if first is None:
+            return None
+        wholes = self._find(" ".join(split_phrase(whole)))
+        parts = self.parts(wholes.iris) if wholes is not None else set()
+        if chosen := tuple(iri for iri in first.iris if iri in parts):
+            return Things(chosen, text)
+        below = self.in_area(whole) if wholes is None or not wholes.iris else set[str]()
+        chosen = tuple(iri for iri in first.iris if iri in below)
+        return Things(chosen, text) if chosen or wholes is not None else None
+
+    def parts(self, wholes: Iterable[str]) -> set[str]:
+        """Return the parts of things, and the parts of these."""
+        found: set[str] = set()
+        waiting = {*wholes}
+        while waiting:
+            waiting = self.related("part", waiting, is_direct=True) - found
+            found |= waiting
+        return found
+
     def around(self, relation: str, text: str, *, is_direct: bool) -> set[str]:
         """Return the objects in a relation to the things that a noun phrase means, or in a part of the scene.
 
@@ -300,9 +373,9 @@ class Nouns:
 
     def is_whole_scene(self, text: str) -> bool:
         """Return whether a noun means the scene: the shop, or the room where the graph has none."""
-        return (
-            text in _WHOLE_PLACES and not self._kinds.objects(text) and not (text == "room" and self._facts.has_rooms)
-        )
+        is_place = text in _WHOLE_PLACES or not _PLACE_KINDS.isdisjoint(hypernyms_of(text))
+        is_scene = is_place or (text.isalpha() and text in noun_words(self._root))
+        return is_scene and not self._kinds.objects(text) and not (text == "room" and self._facts.has_rooms)
 
     def related(self, relation: str, anchors: Iterable[str], *, is_direct: bool) -> set[str]:
         """Return the objects in a relation to any of some anchors; if not direct, also those on or in these objects."""
@@ -319,22 +392,16 @@ class Nouns:
                 waiting.extend(one for name in ("on", "inside") for one in facts.related(name, iri))
         return found
 
-    def _modified(self, text: str) -> Things | None:
-        """Return the things of a noun after an adjective: a colour, a material, or a size."""
-        adjective, _, rest = text.partition(" ")
-        if not rest or not (adjective in COLORS or adjective in _SIZES or is_material(adjective)):
+    def _joined(self, text: str) -> Things | None:
+        """Return the things of several nouns: `cups and plates`; none, with the first noun that nothing is."""
+        nouns = re.split(r",? (?:and|or) |, ", text)
+        found = [self._find(" ".join(split_phrase(noun))) for noun in nouns] if len(nouns) > 1 else []
+        if not found or any(things is None for things in found):
             return None
-        things = self._find(rest)
-        if things is None:
-            return None
-        if adjective in _SIZES:
-            sizes = {iri: max(self._facts.body(iri).extents or (0.0,)) for iri in things.iris}
-            chosen = [_SIZES[adjective](sizes, key=lambda iri: sizes[iri])] if sizes else []
-        elif adjective in COLORS:
-            chosen = [iri for iri in things.iris if has_color(self._facts, iri, adjective)]
-        else:
-            chosen = [iri for iri in things.iris if has_material(self._facts, iri, adjective)]
-        return Things(tuple(chosen), text)
+        each = [things for things in found if things is not None]
+        if missing := next((things for things in each if not things.iris), None):
+            return missing
+        return Things(tuple(self._facts.sorted({iri for things in each for iri in things.iris})), text)
 
     def _correct(self, words: list[str]) -> Things:
         """Return what is meant if one spelling is much more likely than all others.

@@ -13,6 +13,7 @@ __all__ = [
     "common_stem",
     "is_noun",
     "is_plural",
+    "name_parts",
     "name_words",
     "noun_words",
     "singular",
@@ -39,6 +40,16 @@ _ENDINGS = (
     ("xes", "x"),
     ("s", ""),
 )
+_PLACED = r"(lies|lie|stands?|sits?|hangs?|rests?|leans?)"
+_BEFORE_PLACE = (
+    r"(?=((\w+) )?(on|in|inside|at|by|near|under|next|beside|below|above|behind|nearest|closest|furthest|to|from)\b)"
+)
+_RELATIVE = re.compile(
+    rf"\b(that|which|who) ((is|are|was|were) |{_PLACED} {_BEFORE_PLACE})"
+    rf"|(?<=\w )(standing|lying|sitting|hanging|resting|placed|located|directly|exactly) {_BEFORE_PLACE}",
+    re.IGNORECASE,
+)
+"""Relative pronouns with their verb, and participles and adverbs before a preposition."""
 _MIN_STEM = 2
 """Letters before an ending."""
 
@@ -93,8 +104,17 @@ def name_words(text: str) -> frozenset[str]:
     >>> sorted(name_words("DiningTables_02"))
     ['2', 'dining', 'table']
     """
+    return frozenset(name_parts(text))
+
+
+def name_parts(text: str) -> list[str]:
+    """Return the words of a name in the singular, and its numbers without leading zeros, in order.
+
+    >>> name_parts("DiningTables_02")
+    ['dining', 'table', '2']
+    """
     parts = (word.lower() for word in split_identifier(text))
-    return frozenset(part.lstrip("0") or "0" if part.isdigit() else singular(part) for part in parts)
+    return [part.lstrip("0") or "0" if part.isdigit() else singular(part) for part in parts]
 
 
 def is_noun(text: str) -> bool:
@@ -108,7 +128,7 @@ def split_phrase(text: str) -> list[str]:
     >>> split_phrase("all the cups that are on the table, please")
     ['cups', 'on', 'table']
     """
-    words = re.sub(r"\b(that|which) (is|are) ", "", text.strip(" ?!.,;"), flags=re.IGNORECASE).split()
+    words = _RELATIVE.sub("", text.strip(" ?!.,;")).split()
     while words and words[0].lower() in _FILLERS:
         words = words[1:]
     while len(words) > 1 and words[-1].lower() in {"here", "there", "please"}:

@@ -8,7 +8,8 @@ import numpy as np
 from usd2kg.errors import GraphError
 from usd2kg.knowledge import word_map
 from usd2kg.query.body_table import Body
-from usd2kg.query.lookup import SceneFacts, Things
+from usd2kg.query.lookup.facts import SceneFacts
+from usd2kg.query.lookup.things import Things
 
 __all__ = ["COMPARED", "ELEVATION", "MASS", "MEASURES", "SAME", "SIZE", "SUPERLATIVES", "BodyMeasures", "Measure"]
 
@@ -64,9 +65,9 @@ def _read_signed(words: Mapping[str, str]) -> dict[str, tuple[Measure, int]]:
     return {word: (_BY_NAME[name], 1 if sign in {"most", "more"} else -1) for word, (sign, name) in parts.items()}
 
 
-MEASURES = {word: _BY_NAME[name] for word, name in word_map("assistant", "measure_words").items()}
-SUPERLATIVES = _read_signed(word_map("assistant", "superlatives"))
-COMPARED = _read_signed(word_map("assistant", "comparatives"))
+MEASURES = {word: _BY_NAME[name] for word, name in word_map("query", "measure_words").items()}
+SUPERLATIVES = _read_signed(word_map("query", "superlatives"))
+COMPARED = _read_signed(word_map("query", "comparatives"))
 SAME = 0.005
 """Share of a measure by which two things must differ to be unequal."""
 

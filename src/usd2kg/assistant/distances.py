@@ -1,0 +1,145 @@
+"""Answers about distances: between things, from side to side, up from the floor, and which of two is nearer."""
+
+from collections.abc import Callable
+
+import numpy as np
+
+from usd2kg.assistant.interpreted_answer import InterpretedAnswer
+from usd2kg.assistant.sentences import begin_sentence, join_few, number_text, yes_or_no
+from usd2kg.errors import GraphError
+from usd2kg.query.body_table import Body
+from usd2kg.query.lookup import Nouns, SceneFacts, Things
+from usd2kg.query.lookup.amounts import read_amount
+from usd2kg.query.lookup.body_measures import BodyMeasures
+
+__all__ = ["DistanceAnswers"]
+
+
+class DistanceAnswers:
+    """Answers about distances in one graph, by the boxes of things."""
+
+    def __init__(self, facts: SceneFacts, nouns: Nouns) -> None:
+        self._facts = facts
+        self._nouns = nouns
+        self._bodies = BodyMeasures(facts)
+
+    def find(self, question: str) -> Callable[..., InterpretedAnswer] | None:
+        """Return the method that answers a question type; None if it is another's."""
+        handlers: dict[str, Callable[..., InterpretedAnswer]] = {
+            "apart": lambda kind: self.distance(*self._nouns.pair(kind)),
+            "distance": self.distance,
+            "elevation": self._elevation,
+            "is-nearer": self._is_nearer,
+            "nearer": self._nearer,
+            "passes": self._passes,
+            "rise": self._rise,
+        }
+        return handlers.get(question)
+
+    def distance(self, thing: str, other: str) -> InterpretedAnswer:
+        """Return the gaps between things and the nearest of others."""
+        first, second = self._nouns.existing(thing), self._nouns.existing(other)
+        gaps = self._gaps(first, second)
+        facts = self._facts
+        parts = [f"{facts.label(iri)} is {number_text(gap, 'm')} from {second.text}" for iri, gap in gaps.items()]
+        sentence = f"{join_few(parts)}, from side to side{first.suffix}{second.suffix}."
+        table = facts.table(sorted(gaps, key=lambda iri: gaps[iri]), gap_m=gaps)
+        return InterpretedAnswer(
+            f"the gap between {first.text} and {second.text}, in metres",
+            table,
+            number=min(gaps.values()),
+            sentence=sentence,
+        )
+
+    def _passes(self, distance: str, thing: str, other: str) -> InterpretedAnswer:
+        """Return whether something of a width has room between two things."""
+        width, unit = read_amount(distance)
+        if unit != "m":
+            raise GraphError(f"{distance!r} is not a width; expected a length, such as 60 cm")
+        found = self.distance(thing, other)
+        gap = found.number or 0.0
+        is_so = gap >= width
+        sentence = yes_or_no(is_so, f"The gap is {number_text(gap, 'm')} wide, from side to side.")
+        return InterpretedAnswer(
+            f"whether {distance} pass through {found.understood}", found.answer, is_so, sentence=sentence
+        )
+
+    def _nearer(self, thing: str, other: str, third: str) -> InterpretedAnswer:
+        """Return which of two things is nearer to another."""
+        anchors = self._nouns.existing(thing)
+        choices = [self._nouns.existing(text) for text in (other, third)]
+        gaps = [min(self._gaps(choice, anchors).values()) for choice in choices]
+        winner = choices[int(gaps[1] < gaps[0])]
+        how = " and ".join(
+            f"{choice.text} is {number_text(gap, 'm')} away" for choice, gap in zip(choices, gaps, strict=True)
+        )
+        said = "They are equally far" if gaps[0] == gaps[1] else f"{winner.text} is nearer to {anchors.text}"
+        chosen = () if gaps[0] == gaps[1] else winner.iris
+        return InterpretedAnswer(
+            f"which is nearer to {anchors.text}: {choices[0].text} or {choices[1].text}",
+            self._facts.table(chosen),
+            sentence=begin_sentence(f"{said}: {how}{anchors.suffix}."),
+        )
+
+    def _is_nearer(self, thing: str, other: str, third: str) -> InterpretedAnswer:
+        """Return whether a thing is nearer to another than a third one is."""
+        anchors = self._nouns.existing(other)
+        first, second = self._nouns.existing(thing), self._nouns.existing(third)
+        own, rival = (min(self._gaps(things, anchors).values()) for things in (first, second))
+        how = f"{first.text} is {number_text(own, 'm')} from {anchors.text}, {second.text} {number_text(rival, 'm')}"
+        return InterpretedAnswer(
+            f"whether {first.text} is nearer to {anchors.text} than {second.text}",
+            self._facts.table(first.iris),
+            own < rival,
+            sentence=yes_or_no(own < rival, f"{how}{anchors.suffix}."),
+        )
+
+    def _elevation(self, thing: str) -> InterpretedAnswer:
+        """Return how high things are above the floor: their top if they carry something, else their bottom."""
+        things, facts = self._nouns.existing(thing), self._facts
+        floor = self._floor_level()
+        heights, parts = {}, []
+        for iri in things.iris:
+            lower, upper = self._ends(facts.body(iri), things)
+            bottom, top = lower - floor, upper - floor
+            heights[iri] = round(top if iri in facts.supporters else bottom, 4)
+            parts.append(f"{facts.label(iri)} is {number_text(bottom, 'm')} to {number_text(top, 'm')} above the floor")
+        return InterpretedAnswer(
+            f"how high above the floor: {things.text}",
+            facts.table(heights, height_m=heights),
+            number=next(iter(heights.values())),
+            sentence=f"{join_few(parts)}{things.suffix}.",
+        )
+
+    def _rise(self, thing: str, other: str) -> InterpretedAnswer:
+        """Return the vertical gap between the top of the lower one of two things and the bottom of the higher one."""
+        first, second = self._nouns.existing(thing), self._nouns.existing(other)
+        one, two = ([self._ends(self._facts.body(iri), things) for iri in things.iris] for things in (first, second))
+        gap = min(max(upper[0] - lower[1], lower[0] - upper[1]) for lower in one for upper in two)
+        said = f"{number_text(gap, 'm')} of height are between {first.text} and {second.text}"
+        if gap < 0:
+            said = f"{first.text} and {second.text} overlap in height by {number_text(-gap, 'm')}"
+        return InterpretedAnswer(
+            f"the height between {first.text} and {second.text}, in metres",
+            self._facts.table((*first.iris, *second.iris)),
+            number=round(gap, 4),
+            sentence=begin_sentence(f"{said}{first.suffix}{second.suffix}."),
+        )
+
+    def _gaps(self, first: Things, second: Things) -> dict[str, float]:
+        gaps = self._bodies.gaps(first.iris, second.iris)
+        if not gaps:
+            raise GraphError(f"not known: the graph has no boxes for {first.text} and {second.text}")
+        return gaps
+
+    def _floor_level(self) -> float:
+        """Return the height of the floor, or of the lowest thing, in metres."""
+        bodies = [self._facts.body(iri) for iri in self._nouns.find("floor").iris]
+        tops = [float(body.upper[2]) for body in bodies if body.upper is not None]
+        return min(tops) if tops else float(np.min(self._facts.bodies.table.lower[:, 2], initial=np.inf))
+
+    def _ends(self, body: Body, things: Things) -> tuple[float, float]:
+        """Return the heights of the bottom and the top of a box, in metres."""
+        if body.lower is None or body.upper is None:
+            raise GraphError(f"not known: the graph has no box for {things.text}")
+        return float(body.lower[2]), float(body.upper[2])

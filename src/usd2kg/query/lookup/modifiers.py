@@ -1,0 +1,183 @@
+"""PhraseModifiers: restrict the things of a noun by what stands before or after it."""
+
+import re
+from collections.abc import Callable, Iterable, Iterator
+
+from usd2kg.errors import GraphError
+from usd2kg.knowledge import word_map, word_set
+from usd2kg.query.lookup.amounts import read_amount
+from usd2kg.query.lookup.body_measures import COMPARED, SIZE, SUPERLATIVES, BodyMeasures, Measure
+from usd2kg.query.lookup.colors import COLORS, has_color, has_material, is_material
+from usd2kg.query.lookup.facts import SceneFacts
+from usd2kg.query.lookup.things import Things
+
+__all__ = ["PhraseModifiers", "restricts"]
+
+_SIZES = {"big": max, "large": max, "huge": max, "tall": max, "small": min, "little": min, "tiny": min, "short": min}
+_COMPARED = re.compile(rf"(?P<first>.+?) (?P<adjective>{'|'.join(COMPARED)}) than (?P<second>.+)")
+_NEAREST = (
+    re.compile(r"(?P<first>.+?) (?P<which>nearest|closest|furthest|farthest) (?:away )?(?:to |from )?(?P<second>.+)"),
+    re.compile(r"(?P<which>nearest|closest) (?P<first>.+?) (?:to|from) (?P<second>.+)"),
+)
+_WITHIN = re.compile(
+    r"(?P<first>.+?) (?P<which>within|closer than|less than|at most|further than|farther than|more than) "
+    r"(?P<amount>[\w.]+ ?\w+?) (?:away )?(?:of|to|from|around) (?P<second>.+)"
+)
+_BEYOND = frozenset({"further than", "farther than", "more than"})
+_FOR_PURPOSE = re.compile(r"(?P<first>.+?) (?:to|for) (?P<verb>\w+)(?: (?:on|in|with|from|into|at))?")
+_EMPTY = word_set("query", "empty_adjectives")
+
+_Find = Callable[[str], Things | None]
+
+
+def restricts(adjective: str) -> bool:
+    """Return whether a word before a noun names a size, a colour, a material or a state that a thing has or lacks."""
+    return adjective in {*COLORS, *_SIZES, *_EMPTY, *SUPERLATIVES} or is_material(adjective)
+
+
+class PhraseModifiers:
+    """Reads the modifiers of noun phrases about one graph."""
+
+    def __init__(self, facts: SceneFacts, find: _Find) -> None:
+        """Wrap the facts of a graph.
+
+        Args:
+            facts: the graph.
+            find: returns what a phrase means, None if a word is unknown.
+        """
+        self._facts = facts
+        self._find = find
+        self._bodies = BodyMeasures(facts)
+
+    def read_superlative(self, text: str) -> Things | None:
+        """Return the things of a noun after a superlative with the most or the least of a measure: `largest shelf`."""
+        adjective, _, rest = text.partition(" ")
+        things = self._find(rest) if rest and adjective in SUPERLATIVES else None
+        if things is None:
+            return None
+        measure, sign = SUPERLATIVES[adjective]
+        values = self._measured(things, measure)
+        best = max((sign * value for value in values.values()), default=0.0)
+        return Things(tuple(iri for iri in things.iris if sign * values.get(iri, 0.0) == best), text)
+
+    def read(self, text: str) -> Things | None:
+        """Return the things of a noun with another modifier; None if there is none, or a word is unknown."""
+        readers = (
+            self._read_adjective,
+            self._read_comparison,
+            self._read_within,
+            self._read_nearest,
+            self._read_purpose,
+        )
+        return next((found for read in readers if (found := read(text)) is not None), None)
+
+    def find_for_purpose(self, verb: str) -> Things | None:
+        """Return the things of the kinds that a purpose names: sports equipment; None if the lexicon has no kind."""
+        word = word_map("query", "purpose_verbs").get(verb.lower(), verb.lower())
+        kinds = [word, *(f"{word} {noun}" for noun in sorted(word_set("query", "purpose_nouns")))]
+        found = [things for kind in kinds if (things := self._find(kind)) is not None and not things.is_by_name]
+        if not found:
+            return None
+        return Things(tuple(self._facts.sorted({iri for things in found for iri in things.iris})), f"things for {word}")
+
+    def _read_adjective(self, text: str) -> Things | None:
+        """Return the things of a noun after a size, a colour, a material, or the word that nothing is in or on them."""
+        adjective, _, rest = text.partition(" ")
+        if not rest or adjective in SUPERLATIVES or not restricts(adjective):
+            return None
+        things = self._find(rest)
+        if things is None:
+            return None
+        if adjective in _SIZES:
+            sizes = {iri: max(self._facts.body(iri).extents or (0.0,)) for iri in things.iris}
+            return Things((_SIZES[adjective](sizes, key=lambda iri: sizes[iri]),) if sizes else (), text)
+        return Things(tuple(self._having(adjective, things.iris)), text)
+
+    def _having(self, adjective: str, iris: Iterable[str]) -> Iterator[str]:
+        facts = self._facts
+        for iri in iris:
+            if adjective in _EMPTY:
+                is_so = not (facts.related("on", iri) or facts.related("inside", iri))
+            elif adjective in COLORS:
+                is_so = has_color(facts, iri, adjective)
+            else:
+                is_so = has_material(facts, iri, adjective)
+            if is_so:
+                yield iri
+
+    def _read_comparison(self, text: str) -> Things | None:
+        """Return the things that have more or less of a measure than each of others, or than an amount."""
+        parts = _COMPARED.fullmatch(text)
+        first = self._find(parts["first"]) if parts is not None else None
+        if parts is None or first is None:
+            return None
+        measure, sign = COMPARED[parts["adjective"]]
+        if re.match(r"\.?\d", parts["second"]):
+            limit, unit = read_amount(parts["second"])
+            if measure is SIZE or unit != measure.unit:
+                adjective = parts["adjective"]
+                raise GraphError(
+                    f"{parts['second']!r} does not measure what is {adjective}; expected a number with {measure.unit}"
+                )
+            others: tuple[str, ...] = ()
+        else:
+            second = self._find(parts["second"])
+            if second is None:
+                return None
+            if not second.iris:
+                raise GraphError(second.absence)
+            limit, others = max(sign * value for value in self._measured(second, measure).values()), second.iris
+            limit *= sign
+        values = self._measured(first, measure)
+        chosen = (iri for iri in first.iris if iri in values and sign * values[iri] > sign * limit)
+        return Things(tuple(iri for iri in chosen if iri not in others), text)
+
+    def _read_within(self, text: str) -> Things | None:
+        """Return the things up to a distance from others, or beyond: `chairs within 2 m of the desk`."""
+        parts = _WITHIN.fullmatch(text)
+        first, second = (self._find(parts[name]) for name in ("first", "second")) if parts else (None, None)
+        if parts is None or first is None or second is None:
+            return None
+        limit, unit = read_amount(parts["amount"])
+        if unit != "m":
+            raise GraphError(f"{parts['amount']!r} is not a distance; expected a length, such as 2 m")
+        if not second.iris:
+            raise GraphError(second.absence)
+        gaps = self._bodies.gaps((iri for iri in first.iris if iri not in second.iris), second.iris)
+        is_beyond = parts["which"] in _BEYOND
+        return Things(tuple(iri for iri, gap in gaps.items() if (gap > limit) is is_beyond), text)
+
+    def _read_nearest(self, text: str) -> Things | None:
+        """Return the thing of a noun with the least or largest gap to others: `chair nearest to the desk`."""
+        for pattern in _NEAREST:
+            parts = pattern.fullmatch(text)
+            first, second = (self._find(parts[name]) for name in ("first", "second")) if parts else (None, None)
+            if first is None or second is None:
+                continue
+            if not second.iris:
+                raise GraphError(second.absence)
+            gaps = self._bodies.gaps((iri for iri in first.iris if iri not in second.iris), second.iris)
+            sign = -1 if parts is not None and parts["which"] in {"furthest", "farthest"} else 1
+            chosen = min(gaps, key=lambda iri: (sign * gaps[iri], self._facts.path(iri)), default=None)
+            return Things((chosen,) if chosen is not None else (), text)
+        return None
+
+    def _read_purpose(self, text: str) -> Things | None:
+        """Return the things of a noun that are for a purpose: `something to sit on`."""
+        parts = _FOR_PURPOSE.fullmatch(text)
+        first = self._find(parts["first"]) if parts is not None else None
+        meant = self.find_for_purpose(parts["verb"]) if parts is not None and first is not None else None
+        if first is None or meant is None:
+            return None
+        return Things(tuple(iri for iri in first.iris if iri in meant.iris), text)
+
+    def _measured(self, things: Things, measure: Measure) -> dict[str, float]:
+        """Return the measure of each thing that has it, at least one.
+
+        Raises:
+            GraphError: none has it.
+        """
+        values = self._bodies.values(things.iris, measure)
+        if not values and things.iris:
+            raise self._bodies.unmeasured(things, measure)
+        return values
