@@ -44,7 +44,7 @@ class ComparisonAnswers:
     def _superlative(self, adjective: str, kind: str, count: str = "1") -> InterpretedAnswer:
         """Return the things that come first by a measure, with those that are equal to the last of them."""
         things = self._nouns.existing(kind)
-        measure, sign = SUPERLATIVES[adjective.lower()]
+        measure, sign = {**COMPARED, **SUPERLATIVES}[adjective.lower()]
         values = self._bodies.values(things.iris, measure)
         if not values:
             raise self._bodies.unmeasured(things, measure)

@@ -1,5 +1,6 @@
 """Answers about distances: between things, from side to side, up from the floor, and which of two is nearer."""
 
+import re
 from collections.abc import Callable
 
 import numpy as np
@@ -13,6 +14,9 @@ from usd2kg.query.lookup.amounts import read_amount
 from usd2kg.query.lookup.body_measures import BodyMeasures
 
 __all__ = ["DistanceAnswers"]
+
+
+_NEAREST = re.compile(r"^(the )?(nearest|closest) ", re.IGNORECASE)
 
 
 class DistanceAnswers:
@@ -38,7 +42,8 @@ class DistanceAnswers:
 
     def distance(self, thing: str, other: str) -> InterpretedAnswer:
         """Return the gaps between things and the nearest of others."""
-        first, second = self._nouns.existing(thing), self._nouns.existing(other)
+        # The gap to the nearest shelf is the least gap to any.
+        first, second = (self._nouns.existing(_NEAREST.sub("", text)) for text in (thing, other))
         gaps = self._gaps(first, second)
         facts = self._facts
         parts = [f"{facts.label(iri)} is {number_text(gap, 'm')} from {second.text}" for iri, gap in gaps.items()]
@@ -136,10 +141,10 @@ class DistanceAnswers:
         """Return the height of the floor, or of the lowest thing, in metres."""
         bodies = [self._facts.body(iri) for iri in self._nouns.find("floor").iris]
         tops = [float(body.upper[2]) for body in bodies if body.upper is not None]
-        return min(tops) if tops else float(np.min(self._facts.bodies.table.lower[:, 2], initial=np.inf))
+        return min(tops) if tops else float(np.nanmin(self._facts.bodies.table.lower[:, 2]))
 
     def _ends(self, body: Body, things: Things) -> tuple[float, float]:
         """Return the heights of the bottom and the top of a box, in metres."""
-        if body.lower is None or body.upper is None:
+        if body.lower is None or body.upper is None or not np.isfinite([*body.lower, *body.upper]).all():
             raise GraphError(f"not known: the graph has no box for {things.text}")
         return float(body.lower[2]), float(body.upper[2])

@@ -16,6 +16,7 @@ from usd2kg.query.lookup import Nouns, SceneFacts, UnknownWordError
 from usd2kg.query.lookup.amounts import read_sides
 from usd2kg.query.lookup.body_measures import MASS, MEASURES, SIZE, BodyMeasures, Measure
 from usd2kg.query.lookup.colors import COLORS, has_color, has_material, is_material, material_words, own_colors
+from usd2kg.query.lookup.modifiers import restricts
 from usd2kg.query.lookup.word_forms import split_phrase
 from usd2kg.query.settings import WORDS
 
@@ -46,6 +47,7 @@ class MeasureAnswers:
             "are-color": self._are_like,
             "are-kind": self._are_kind,
             "purpose": self._purpose,
+            "is-material": self._is_material,
             "put": self._put,
             "openable": self._openable,
             "is-openable": self._is_openable,
@@ -140,6 +142,16 @@ class MeasureAnswers:
             sentence=f"{join_few(parts)}{things.suffix}. The names of materials say how things look.",
         )
 
+    def _is_material(self, thing: str, adjective: str) -> InterpretedAnswer:
+        if not is_material(adjective.lower()):
+            raise UnknownWordError(f"{adjective!r} is not understood as a material")
+        found, things = self._material(thing), self._nouns.existing(thing)
+        is_so = all(has_material(self._facts, iri, adjective.lower()) for iri in things.iris)
+        sentence = yes_or_no(is_so, found.sentence)
+        return InterpretedAnswer(
+            f"whether {things.text} is made of {adjective}", found.answer, is_so, sentence=sentence
+        )
+
     def _are_like(self, kind: str, adjective: str) -> InterpretedAnswer:
         """Return the things of a colour, a material, or another kind."""
         things, facts, word = self._nouns.existing(kind), self._facts, adjective.lower()
@@ -151,6 +163,8 @@ class MeasureAnswers:
             if not facts.count(_WITH_MATERIAL):
                 raise GraphError("not known: the graph has no materials")
             chosen = [iri for iri in things.iris if has_material(facts, iri, word)]
+        elif restricts(word):
+            chosen = [*self._nouns.find(f"{word} {kind}").iris]
         else:
             kinds = set(self._nouns.find(adjective).iris)
             chosen = [iri for iri in things.iris if iri in kinds]
@@ -178,11 +192,9 @@ class MeasureAnswers:
     def _where_to(self, verb: str) -> InterpretedAnswer:
         """Return the things that an activity needs: a sink to wash, a bed to sleep."""
         noun = word_map("assistant", "activity_things").get(verb.lower())
-        things = self._nouns.find(noun) if noun is not None else self._nouns.for_purpose(verb)
+        things = self._nouns.existing(noun) if noun is not None else self._nouns.for_purpose(verb)
         if not things.iris:
-            return InterpretedAnswer(
-                f"where to {verb}", self._facts.table(()), sentence=f"{begin_sentence(things.absence)}."
-            )
+            raise UnknownWordError(f"{verb!r} is not understood as an activity")
         places = tuple(map(self._facts.path, things.iris))
         sentence = begin_sentence(f"to {verb}: {name_things(self._facts, things.iris)}.")
         return InterpretedAnswer(f"where to {verb}", self._facts.table(things.iris), sentence=sentence, places=places)

@@ -1,5 +1,6 @@
 """ask_offline: answer a question in people's words, without a language model."""
 
+import math
 from collections.abc import Callable, Collection, Mapping
 from dataclasses import replace
 from pathlib import Path
@@ -7,6 +8,7 @@ from pathlib import Path
 from usd2kg.assistant.comparisons import ComparisonAnswers
 from usd2kg.assistant.describe import description_answer
 from usd2kg.assistant.distances import DistanceAnswers
+from usd2kg.assistant.intents import parse_intent
 from usd2kg.assistant.interpreted_answer import InterpretedAnswer
 from usd2kg.assistant.measures import MeasureAnswers
 from usd2kg.assistant.phrases import Phrase, match_phrase, normalize
@@ -25,7 +27,7 @@ from usd2kg.assistant.settings import SENTENCES
 from usd2kg.assistant.swept_space import find_in_the_way
 from usd2kg.assistant.thing_lists import ThingLists
 from usd2kg.errors import GraphError
-from usd2kg.knowledge import word_map, word_set
+from usd2kg.knowledge import word_map
 from usd2kg.query import Answer, GraphStore
 from usd2kg.query.answer import join_answers
 from usd2kg.query.lookup import Nouns, Things, UnknownWordError
@@ -52,8 +54,9 @@ def ask_offline(graph: GraphStore, text: str, since: Path | None = None) -> Inte
         GraphError: the question or one of its words is not understood.
     """
     check_text(text, "question")
-    phrase = match_phrase(text)
-    return _Answerer(graph, phrase is None or phrase.is_english, since).answer(text, phrase)
+    phrase, intent = match_phrase(text), parse_intent(text)
+    read = phrase or intent
+    return _Answerer(graph, read is None or read.is_english, since).answer(text, phrase, intent)
 
 
 class _Answerer:
@@ -94,20 +97,43 @@ class _Answerer:
             "with-parts": self._with_parts,
         }
 
-    def answer(self, text: str, phrase: Phrase | None) -> InterpretedAnswer:
-        """Return the answer to a question, or to a noun alone, which matches no phrase."""
+    def answer(self, text: str, phrase: Phrase | None, intent: Phrase | None) -> InterpretedAnswer:
+        """Return the answer to a question, by its pattern, else by its cue, or to a noun alone, such as `laptops?`."""
+        failed: GraphError | None = None
         if phrase is not None:
-            return self._answer_phrase(phrase)
-        # A noun alone: “laptops?”
-        try:
-            things = self._nouns.find(normalize(text))
-        except UnknownWordError as error:
-            raise GraphError(
-                f"question {text!r} is not understood ({error}); expected a question like 'what is on the table?', "
-                "'where is the kettle?', 'how many cups are there?' or 'what must be moved to open the drawer?' "
-                "(usd2kg query --list shows more); or let a language model write the query with --model"
-            ) from error
-        return self._things.answer(things)
+            try:
+                return self._answer_phrase(phrase)
+            except UnknownWordError as error:
+                # The pattern may have taken other words for a part of the noun.
+                failed = error
+        if intent is not None:
+            try:
+                return self._answer_intent(intent)
+            except UnknownWordError as error:
+                failed = failed or error
+        if failed is None:
+            try:
+                return self._things.answer(self._nouns.find(normalize(text)))
+            except UnknownWordError as error:
+                failed = error
+        elif phrase is not None:
+            raise failed
+        raise GraphError(
+            f"question {text!r} is not understood ({failed}); expected a question like 'what is on the table?', "
+            "'where is the kettle?', 'how many cups are there?' or 'what must be moved to open the drawer?' "
+            "(usd2kg query --list shows more); or let a language model write the query with --model"
+        ) from failed
+
+    def _answer_intent(self, intent: Phrase) -> InterpretedAnswer:
+        """Return the answer to a question that only its cue tells.
+
+        Raises:
+            GraphError: nothing is meant, so the words may have been misunderstood.
+        """
+        found = self._answer_phrase(intent)
+        if not found.answer.rows and not found.number and intent.question != "is-there":
+            raise GraphError(found.sentence or f"there is nothing in this scene: {found.understood}")
+        return found
 
     def _answer_phrase(self, phrase: Phrase) -> InterpretedAnswer:
         question, given, _ = phrase
@@ -168,13 +194,23 @@ class _Answerer:
         parts, places = [], []
         for iri in things.iris:
             said: list[str] = []
-            for name in ("inside", "on", "attached", "room"):
-                rooms = set(facts.anchors("room", iri))
-                anchors = [a for a in facts.anchors(name, iri) if name == "room" or a not in rooms]
-                places += anchors
-                if name != "room" or not said:
-                    place = PREPOSITIONS.get(name, "in")
-                    said += [f"{place} {the_thing(facts.kind(a), facts.label(a))}" for a in anchors[:1]]
+            rooms = facts.anchors("room", iri)
+            held = [
+                (name, anchor)
+                for name in ("on", "inside", "attached", "part")
+                for anchor in facts.anchors(name, iri)
+                if anchor not in rooms
+            ]
+            # The smallest thing that holds it says most about the place.
+            held.sort(key=lambda found: self._volume(found[1]))
+            held = held or [("room", anchor) for anchor in rooms]
+            places += [anchor for _, anchor in held]
+            named_once = dict(reversed(held))
+            said += [
+                f"{PREPOSITIONS.get(name, 'in')} {the_thing(facts.kind(anchor), facts.label(anchor))}"
+                for name, anchor in held
+                if named_once[name] == anchor
+            ]
             body = facts.body(iri)
             if body.lower is not None and body.upper is not None:
                 x, y, z = (body.lower + body.upper) / 2
@@ -187,6 +223,11 @@ class _Answerer:
         return InterpretedAnswer(
             f"where: {things.text}", self._things.located(things.iris), sentence=sentence, places=named
         )
+
+    def _volume(self, iri: str) -> float:
+        """Return the volume of the box of an object in m³, infinite without one."""
+        extents = self._facts.body(iri).extents
+        return math.prod(extents) if extents is not None else math.inf
 
     def _stands_on(self, thing: str) -> InterpretedAnswer:
         facts, things = self._facts, self._nouns.find(thing)
@@ -315,8 +356,9 @@ class _Answerer:
         what = self._nouns.find(values.get("class", "things"))
         # What holds a thing, and the shell of a room, is not a neighbour of it.
         holders = {one for iri in anchors.iris for name in ("on", "inside", "room") for one in facts.anchors(name, iri)}
-        holders |= {iri for noun in word_set("assistant", "shells") for iri in self._nouns.find(noun).iris}
-        candidates = what.iris if "class" in values else [iri for iri in what.iris if iri not in holders]
+        holders |= self._nouns.shells()
+        is_any = self._nouns.is_everything(values.get("class", "things"))
+        candidates = what.iris if not is_any else [iri for iri in what.iris if iri not in holders]
         gaps = self._bodies.gaps(candidates, anchors.iris)
         if not what.iris:
             return InterpretedAnswer(understood, facts.table(()), sentence=f"{begin_sentence(what.absence)}.")

@@ -8,7 +8,7 @@ from typing import NamedTuple
 
 from usd2kg.query.lookup.prepositions import preposition_pattern
 
-__all__ = ["Phrase", "list_phrases", "match_phrase", "normalize"]
+__all__ = ["HEADINGS", "Phrase", "list_phrases", "match_phrase", "normalize"]
 
 
 class Phrase(NamedTuple):
@@ -40,7 +40,8 @@ _POLITE = re.compile(
 )
 _TRAILING = re.compile(
     r",?\s+(please|pls|thanks|thank you|bitte|in total|altogether|all together|overall|in all|anywhere|at all|exactly|"
-    r"right now|currently|for me)$",
+    r"right now|currently|for me|"
+    r"in (square |cubic )?(cm|mm|m|kg|(centi|milli)?met(er|re)s|kilograms|kilos|inches|feet))$",
     re.IGNORECASE,
 )
 _COMMENT = re.compile(
@@ -48,7 +49,7 @@ _COMMENT = re.compile(
     re.IGNORECASE,
 )
 """A remark on what is counted, which does not change the question: `doors, folding doors included`."""
-_HEADINGS = {"# German, French, Spanish and Italian.": False, "# English.": True}
+HEADINGS = {"# German, French, Spanish and Italian.": False, "# English.": True}
 """Heading of patterns → whether they are English."""
 _APOSTROPHE = "\u2019"
 
@@ -62,8 +63,8 @@ def list_phrases() -> Sequence[tuple[str, re.Pattern[str], bool]]:
     for line in (files("usd2kg.assistant") / "phrases.txt").read_text("utf-8").splitlines():
         if definition := re.fullmatch(r"<(\w+)> = (.+)", line):
             words[definition[1]] = definition[2]
-        elif line in _HEADINGS:
-            is_english = _HEADINGS[line]
+        elif line in HEADINGS:
+            is_english = HEADINGS[line]
         elif phrase := re.fullmatch(r"([\w-]+): (.+)", line):
             phrases.append((phrase[1], re.compile(_expand(phrase[2], words), re.IGNORECASE), is_english))
     return tuple(phrases)
@@ -105,4 +106,10 @@ def normalize(text: str) -> str:
         r"\b(directly|exactly|immediately) (?=(above|below|under|over|on|in|behind|next|beside)\b)", "", asked
     )
     asked = re.sub(r"\s+(right here|in here|here in this room)\b", "", asked, flags=re.IGNORECASE)
+    asked = re.sub(
+        r"^(which|what)( one)? of (the |these |those )?(two |three |four )?", r"\1 ", asked, flags=re.IGNORECASE
+    )
+    asked = re.sub(r"\b(that'?s|which'?s) ", "that is ", asked, flags=re.IGNORECASE)
+    if not re.search(r"\b(than|or)\b", asked):
+        asked = re.sub(r"\b(closer|nearer) (?=to\b)", "nearest ", asked, flags=re.IGNORECASE)
     return re.sub(r"^(what|where)(?:'s|s)\b", r"\1 is", asked, flags=re.IGNORECASE)

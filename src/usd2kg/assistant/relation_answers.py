@@ -23,6 +23,7 @@ PREPOSITIONS = {
     "above": "above",
     "below": "below",
     "attached": "attached to",
+    "part": "a part of",
     "left": "left of",
     "right": "right of",
     "front": "in front of",
@@ -92,6 +93,8 @@ class RelationAnswers:
         if name == "inside" and what is None:
             # The door of a microwave is a part of it, not what is in it.
             found -= self._nouns.parts(anchors.iris)
+        if name in {"below", "near"} and (what is None or what.text == "thing"):
+            found -= self._nouns.shells()
         if not found and name in _BY_BOXES:
             found, note = self._by_boxes(name, anchors)
         if name == "on" and found.isdisjoint(found if what is None else what.iris):

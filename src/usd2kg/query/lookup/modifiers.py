@@ -25,6 +25,10 @@ _WITHIN = re.compile(
 )
 _BEYOND = frozenset({"further than", "farther than", "more than"})
 _FOR_PURPOSE = re.compile(r"(?P<first>.+?) (?:to|for) (?P<verb>\w+)(?: (?:on|in|with|from|into|at))?")
+_WITH_NOTHING = re.compile(
+    r"(?P<first>.+?) (?:with |have |has )?nothing (?:on|in|inside|on top)(?: of)?(?: (?:it|them|top))?"
+)
+_WITHOUT = re.compile(r"(?P<first>.+?) (?:without|with no) (?P<second>.+?)(?: (?:on|in|inside) (?:it|them))?")
 _EMPTY = word_set("query", "empty_adjectives")
 
 _Find = Callable[[str], Things | None]
@@ -49,7 +53,12 @@ class PhraseModifiers:
         self._find = find
         self._bodies = BodyMeasures(facts)
 
-    def read_superlative(self, text: str) -> Things | None:
+    def read_first(self, text: str) -> Things | None:
+        """Return the things of a noun with a modifier that has a preposition: a distance, or what is not on them."""
+        readers = (self._read_superlative, self._read_without, self._read_within)
+        return next((found for read in readers if (found := read(text)) is not None), None)
+
+    def _read_superlative(self, text: str) -> Things | None:
         """Return the things of a noun after a superlative with the most or the least of a measure: `largest shelf`."""
         adjective, _, rest = text.partition(" ")
         things = self._find(rest) if rest and adjective in SUPERLATIVES else None
@@ -131,6 +140,25 @@ class PhraseModifiers:
         values = self._measured(first, measure)
         chosen = (iri for iri in first.iris if iri in values and sign * values[iri] > sign * limit)
         return Things(tuple(iri for iri in chosen if iri not in others), text)
+
+    def _read_without(self, text: str) -> Things | None:
+        """Return the things that have nothing, or none of others, on or in them or as a part."""
+        if nothing := _WITH_NOTHING.fullmatch(text):
+            first = self._find(nothing["first"])
+            return None if first is None else Things(tuple(self._having("empty", first.iris)), text)
+        parts = _WITHOUT.fullmatch(text)
+        first, second = (self._find(parts[name]) for name in ("first", "second")) if parts else (None, None)
+        if first is None or second is None:
+            return None
+        related = ("on", "inside", "attached", "part")
+        having = {
+            iri
+            for iri in first.iris
+            for name in related
+            if not self._facts.related(name, iri).isdisjoint(second.iris)
+            or not set(self._facts.anchors(name, iri)).isdisjoint(second.iris)
+        }
+        return Things(tuple(iri for iri in first.iris if iri not in having), text)
 
     def _read_within(self, text: str) -> Things | None:
         """Return the things up to a distance from others, or beyond: `chairs within 2 m of the desk`."""

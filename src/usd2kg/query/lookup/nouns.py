@@ -41,6 +41,7 @@ _CONNECTIVES = word_set("query", "connectives")
 _WHOLE_PLACES = word_set("query", "whole_places")
 _PLACE_KINDS = word_set("query", "place_kinds")
 _NUMBERS = word_set("query", "number_words")
+_SHELLS = word_set("query", "shells")
 _ROOM_NOUNS = word_set("query", "room_nouns")
 _LANGUAGES = ("de", "fr", "es", "it")
 _RELATIONS = ("on", "inside", "near", "above", "attached")
@@ -90,8 +91,13 @@ class Nouns:
             words = words[1:]
         if not words:
             raise UnknownWordError(f"{exact!r} names no thing; expected a noun, such as table")
-        # A trash can is a noun of the lexicon.
-        if (foreign := [word for word in words if word in _QUESTION_WORDS]) and not concepts_named(" ".join(words)):
+        foreign = [
+            word
+            for last, word in zip(["", *words], words, strict=False)
+            # A trash can is a noun of the lexicon.
+            if word in _QUESTION_WORDS and not concepts_named(f"{last} {word}")
+        ]
+        if foreign and not concepts_named(" ".join(words)):
             raise UnknownWordError(f"{foreign[0]!r} is not understood in a name")
         found = self._find(" ".join(words))
         if found is not None and found.iris:
@@ -111,10 +117,13 @@ class Nouns:
 
     def _of_head(self, words: Sequence[str]) -> Things | None:
         """Return the things of the last noun of a compound, or of its last two; None without such things."""
-        if not all(is_noun(word) and not restricts(word) for word in words[:-1]):
+        if not all(is_noun(word) and not (restricts(word) or self._links(word)) for word in words[:-1]):
             return None
         heads = (" ".join(words[start:]) for start in range(1, len(words)))
         return next((found for head in heads if (found := self._find(head)) is not None and found.iris), None)
+
+    def _links(self, word: str) -> bool:
+        return word in _CONNECTIVES or word in _RELATION_OF
 
     def _of_this_name(self, text: str, found: Things) -> Things:
         """Return the only things of several that are named by a definite singular noun: the computer, among tablets."""
@@ -168,7 +177,7 @@ class Nouns:
         if (by_words := self._of_words(text)) is not None:
             return by_words
         readers = (
-            self._modifiers.read_superlative,
+            self._modifiers.read_first,
             self._part_of,
             self._restricted,
             self._modifiers.read,
@@ -291,6 +300,10 @@ class Nouns:
         words = noun_words(" ".join(word for word in split_phrase(text) if word not in _AREAS))
         return {iri for iri in self._facts.things if words and words <= self._group_words(self._group(iri))}
 
+    def shells(self) -> set[str]:
+        """Return what surrounds a room, which nobody asks for as a neighbour of a thing."""
+        return {iri for noun in _SHELLS for iri in self.find(noun).iris}
+
     def is_everything(self, text: str) -> bool:
         """Return whether a noun means any thing."""
         return " ".join(split_phrase(text)) in _EVERYTHING
@@ -320,7 +333,9 @@ class Nouns:
         parts = _RELATION.fullmatch(text)
         if parts is None:
             return None
-        first = self._find(" ".join(split_phrase(parts["first"])))
+        first = self._find(noun := " ".join(split_phrase(parts["first"])))
+        if first is None and not self._is_english:
+            first = self._find(" ".join(translate(tuple(noun.split()), None) or ()))
         if first is None:
             return None
         near = self.around(_RELATION_OF[parts["relation"]], parts["second"], is_direct=False)

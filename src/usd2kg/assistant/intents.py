@@ -1,0 +1,104 @@
+"""parse_intent: what a question asks, by its cue and the noun phrases around it, in any order of words."""
+
+import re
+from collections.abc import Sequence
+from functools import cache
+from importlib.resources import files
+from typing import NamedTuple
+
+from usd2kg.assistant.phrases import HEADINGS, Phrase, normalize
+from usd2kg.grounding import concepts_named
+from usd2kg.knowledge import word_set
+from usd2kg.query.lookup.prepositions import preposition_pattern
+
+__all__ = ["parse_intent"]
+
+_BREAK = "|"
+"""Stands for words that were left out: nouns on both sides are two noun phrases."""
+_FILLERS = word_set("assistant", "fillers")
+_NO_SENSE = re.compile(
+    r"\b(in|as) (square |cubic )?(cm|mm|m|kg|centimet(er|re)s|met(er|re)s|kilograms|kilos|inches|feet)\b"
+    r"|\b(one|some|any|each|all|both) of (the |them |these )?|\b(piece|pieces|pair|set) of\b|\bfor me\b",
+    re.IGNORECASE,
+)
+"""Phrases that do not change the answer."""
+_LINKS = (
+    "of than and or with without no nothing within nearest closest furthest farthest bigger larger smaller taller "
+    "higher wider heavier lighter longer shorter between from to for but"
+)
+_LINK = rf"(?:{preposition_pattern()}|{'|'.join(_LINKS.split())})"
+_LINKED = re.compile(rf"(?: ?\{_BREAK})* (?={_LINK}\b)|(?:^|(?<= ))({_LINK})(?: ?\{_BREAK})+ ")
+_LOOSE = re.compile(r"^(?:(?:of|and|or|to|for|from) )+|(?: (?:of|and|or|to|for|from))+$")
+"""Links without a noun on one side."""
+_PAIR = re.compile(r"(?:between |from |of )?(?P<thing>.+?) (?:(?:and|to|from|or|\|) (?P<other>.+)|(?P<next>\S+))")
+
+
+class _Intent(NamedTuple):
+    question: str
+    argument: str
+    cue: re.Pattern[str]
+    is_english: bool
+
+
+@cache
+def _intents() -> Sequence[_Intent]:
+    intents, is_english = [], True
+    for line in (files("usd2kg.assistant") / "intents.txt").read_text("utf-8").splitlines():
+        is_english = HEADINGS.get(line, is_english)
+        if found := re.fullmatch(r"([\w-]+) (class|thing|pair): (.+)", line):
+            intents.append(_Intent(found[1], found[2], re.compile(found[3], re.IGNORECASE), is_english))
+    return tuple(intents)
+
+
+def parse_intent(text: str) -> Phrase | None:
+    """Return the interpretation of a question by the first cue of `intents.txt` in it; None if its words do not fit.
+
+    All words beside the cue and fillers must be one noun phrase, or two for a distance: a word that is left over would
+    change what is asked.
+
+    >>> parse_intent("hey, can you tell me where I'd find the info desk please")
+    Phrase(question='where', given={'thing': 'info desk'}, is_english=True)
+    """
+    whole = normalize(text)
+    clauses = [clause for clause in re.split(r"[,;.!?:] | - ", whole) if clause]
+    candidates = (whole, *(reversed(clauses) if len(clauses) > 1 else ()))
+    return next((found for one in candidates if (found := _parse(normalize(one))) is not None), None)
+
+
+def _parse(text: str) -> Phrase | None:
+    for question, argument, cue, is_english in _intents():
+        found = cue.search(text)
+        if found is None:
+            continue
+        given = _measured(text, cue) if question == "measure" else {}
+        phrase = _noun_phrase(cue.sub(f" {_BREAK} ", text))
+        if argument == "pair":
+            pair = _PAIR.fullmatch(phrase)
+            other = (pair["other"] or pair["next"]) if pair is not None else ""
+            if pair is None or _BREAK in pair["thing"] + other:
+                return None
+            return Phrase(question, {"thing": pair["thing"], "other": other}, is_english)
+        if not phrase or _BREAK in phrase:
+            return None
+        return Phrase(question, {argument: phrase, **given}, is_english)
+    return None
+
+
+def _measured(text: str, cue: re.Pattern[str]) -> dict[str, str]:
+    """Return the measure that a question names; the size if it names several."""
+    words = {word.lower() for found in cue.finditer(text) if (word := found["adjective"] or found["noun"])}
+    return {"adjective": words.pop() if len(words) == 1 else "size"}
+
+
+def _noun_phrase(text: str) -> str:
+    """Return a text without fillers; those between two nouns leave a break."""
+    words = _NO_SENSE.sub(f" {_BREAK} ", text).replace(",", f" {_BREAK} ").split()
+    words = [word.strip("?!.,") for word in words]
+    before = ["", *words]
+    kept = [
+        _BREAK if word.lower() in _FILLERS and not concepts_named(f"{last} {word}") else word
+        for last, word in zip(before, words, strict=False)
+    ]
+    phrase = re.sub(rf"(?: ?\{_BREAK} ?)+", f" {_BREAK} ", " ".join(filter(None, kept))).strip(f" {_BREAK}")
+    linked = " ".join(_LINKED.sub(lambda found: f"{found[1]} " if found[1] else " ", phrase).split())
+    return _LOOSE.sub("", linked)
