@@ -96,7 +96,7 @@ def _noun_phrase(text: str) -> str:
     words = [word.strip("?!.,") for word in words]
     before = ["", *words]
     kept = [
-        _BREAK if word.lower() in _FILLERS and not concepts_named(f"{last} {word}") else word
+        _BREAK if word.lower() in _FILLERS and not (last.isalpha() and concepts_named(f"{last} {word}")) else word
         for last, word in zip(before, words, strict=False)
     ]
     phrase = re.sub(rf"(?: ?\{_BREAK} ?)+", f" {_BREAK} ", " ".join(filter(None, kept))).strip(f" {_BREAK}")

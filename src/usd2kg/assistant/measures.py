@@ -191,8 +191,7 @@ class MeasureAnswers:
 
     def _where_to(self, verb: str) -> InterpretedAnswer:
         """Return the things that an activity needs: a sink to wash, a bed to sleep."""
-        noun = word_map("assistant", "activity_things").get(verb.lower())
-        things = self._nouns.existing(noun) if noun is not None else self._nouns.for_purpose(verb)
+        things = self._nouns.for_purpose(verb)
         if not things.iris:
             raise UnknownWordError(f"{verb!r} is not understood as an activity")
         places = tuple(map(self._facts.path, things.iris))

@@ -81,7 +81,11 @@ class PhraseModifiers:
         return next((found for read in readers if (found := read(text)) is not None), None)
 
     def find_for_purpose(self, verb: str) -> Things | None:
-        """Return the things of the kinds that a purpose names: sports equipment; None if the lexicon has no kind."""
+        """Return the things that an activity needs, or whose kind names it: sports equipment; None if unknown."""
+        if noun := word_map("query", "activity_things").get(verb.lower()):
+            needed = self._find(noun)
+            if needed is not None and needed.iris:
+                return Things(needed.iris, f"things to {verb.lower()}")
         word = word_map("query", "purpose_verbs").get(verb.lower(), verb.lower())
         kinds = [word, *(f"{word} {noun}" for noun in sorted(word_set("query", "purpose_nouns")))]
         found = [things for kind in kinds if (things := self._find(kind)) is not None and not things.is_by_name]

@@ -95,7 +95,7 @@ class Nouns:
             word
             for last, word in zip(["", *words], words, strict=False)
             # A trash can is a noun of the lexicon.
-            if word in _QUESTION_WORDS and not concepts_named(f"{last} {word}")
+            if word in _QUESTION_WORDS and not (last.isalpha() and concepts_named(f"{last} {word}"))
         ]
         if foreign and not concepts_named(" ".join(words)):
             raise UnknownWordError(f"{foreign[0]!r} is not understood in a name")
@@ -200,7 +200,7 @@ class Nouns:
         )
         named: tuple[_Criterion, ...] = (
             lambda: facts.named(lower),
-            lambda: facts.named("".join(lower.split())) if " " in lower else (),
+            lambda: facts.named("".join(lower.split())) or facts.named("_".join(lower.split())) if " " in lower else (),
             lambda: self._with_words(names, is_whole=True) if len(words) > 1 and words == names else (),
             lambda: self._main_of_group(lower),
         )
@@ -352,7 +352,7 @@ class Nouns:
         parts = self.parts(wholes.iris) if wholes is not None else set()
         if chosen := tuple(iri for iri in first.iris if iri in parts):
             return Things(chosen, text)
-        below = self.in_area(whole) if wholes is None or not wholes.iris else set[str]()
+        below = self.in_area(whole)
         chosen = tuple(iri for iri in first.iris if iri in below)
         return Things(chosen, text) if chosen or wholes is not None else None
 

@@ -136,8 +136,7 @@ def split_phrase(text: str) -> list[str]:
     cleaned = " ".join(word.rstrip(",;:") for word in words)
     for tail in (" in here", " in this scene", " in the scene"):
         cleaned = cleaned.removesuffix(tail)
-    return [
-        word if "/" in word or "_" in word else word.lower()
-        for word in cleaned.split()
-        if word.lower() not in {"the", "a", "an"}
-    ]
+    # A letter at the end is a part of a name: shelf A.
+    *before, last = cleaned.split() or [""]
+    kept = [*(word for word in before if word.lower() not in {"the", "a", "an"}), last]
+    return [word if "/" in word or "_" in word else word.lower() for word in kept if word]
