@@ -5,12 +5,14 @@ from collections.abc import Callable, Sequence
 from usd2kg.assistant.directions import find_beside, find_between
 from usd2kg.assistant.interpreted_answer import InterpretedAnswer
 from usd2kg.assistant.measures import MeasureAnswers
-from usd2kg.assistant.sentences import begin_sentence, name_things, split_number, yes_or_no
+from usd2kg.assistant.sentences import begin_sentence, name_things, number_text, split_number, yes_or_no
+from usd2kg.assistant.settings import DIRECTIONS
 from usd2kg.assistant.thing_lists import ThingLists, column_of
 from usd2kg.errors import GraphError
 from usd2kg.knowledge import word_set
 from usd2kg.query import GraphStore
 from usd2kg.query.lookup import Nouns, Things, UnknownWordError
+from usd2kg.query.lookup.body_measures import BodyMeasures
 from usd2kg.query.lookup.prepositions import RELATION_OF
 from usd2kg.query.lookup.word_forms import is_plural, split_phrase
 
@@ -104,6 +106,8 @@ class RelationAnswers:
             # A rug is under the table that stands on it.
             found = {one for iri in anchors.iris for one in facts.anchors("on", iri)}
         chosen = [iri for iri in facts.sorted(found) if (what is None or iri in what.iris) and iri not in anchors.iris]
+        if name == "near" and what is not None and what.iris and not chosen and anchors.iris:
+            chosen, note = self._nearest_within_reach(what.iris, anchors.iris)
         notes = f"{what.suffix if what else ''}{anchors.suffix}{note}"
         place = f"{PREPOSITIONS[name]} {self._things.the(anchors)}"
         if chosen:
@@ -116,6 +120,14 @@ class RelationAnswers:
             named = "Nothing" if what is None or what.text == "thing" else f"No {what.text}"
             sentence = f"{named} {'are' if what is not None and is_plural(what.text) else 'is'} {place}{notes}."
         return InterpretedAnswer(understood, self._things.located(chosen), sentence=sentence)
+
+    def _nearest_within_reach(self, iris: Sequence[str], anchors: Sequence[str]) -> tuple[list[str], str]:
+        """Return the nearest of some things, if it is within reach, and the note that says how far it is."""
+        gaps = BodyMeasures(self._facts).gaps((iri for iri in iris if iri not in anchors), anchors)
+        nearest = min(gaps, key=lambda iri: (gaps[iri], self._facts.path(iri)), default=None)
+        if nearest is None or gaps[nearest] > DIRECTIONS.reach:
+            return [], ""
+        return [nearest], f" ({number_text(gaps[nearest], 'm')} away)"
 
     def _fixed_to(self, anchors: Sequence[str], *, with_parts: bool) -> set[str]:
         """Return what is fixed to things or to parts of them, and these parts on request."""
