@@ -19,6 +19,7 @@ from usd2kg.assistant.sentences import (
     join_words,
     name_things,
     number_text,
+    plural,
     split_number,
     the_thing,
     yes_or_no,
@@ -27,6 +28,7 @@ from usd2kg.assistant.settings import SENTENCES
 from usd2kg.assistant.swept_space import find_in_the_way
 from usd2kg.assistant.thing_lists import ThingLists
 from usd2kg.errors import GraphError
+from usd2kg.grounding import concepts_named
 from usd2kg.knowledge import word_map
 from usd2kg.query import Answer, GraphStore
 from usd2kg.query.answer import join_answers
@@ -113,7 +115,7 @@ class _Answerer:
                 failed = failed or error
         if failed is None:
             try:
-                return self._things.answer(self._nouns.find(normalize(text)))
+                return self._list(self._nouns.find(normalize(text), may_shorten=False))
             except UnknownWordError as error:
                 failed = error
         elif phrase is not None:
@@ -152,7 +154,12 @@ class _Answerer:
     # Lists and counts.
 
     def _all(self, kind: str = "things", **_: str) -> InterpretedAnswer:
-        return self._things.answer(self._nouns.find(kind))
+        return self._list(self._nouns.find(kind))
+
+    def _list(self, things: Things) -> InterpretedAnswer:
+        if not things.iris and not concepts_named(things.text):
+            raise UnknownWordError(f"{things.text!r} is not a thing that the lexicon knows")
+        return self._things.answer(things)
 
     def _how_many(self, kind: str) -> InterpretedAnswer:
         things = self._nouns.find(kind)
@@ -160,7 +167,7 @@ class _Answerer:
         count = len(things.iris)
         verb = "is" if count == 1 else "are"
         *before, last = things.text.split() or ["thing"]
-        named = " ".join([*before, singular(last)]) if count == 1 else things.text
+        named = " ".join([*before, singular(last)]) if count == 1 else plural(things.text)
         sentence = f"There {verb} {count} {named}{things.suffix}." if count else f"{begin_sentence(things.absence)}."
         return InterpretedAnswer(
             f"number of {things.text}", self._things.located(things.iris), number=count, sentence=sentence

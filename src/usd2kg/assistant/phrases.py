@@ -6,6 +6,7 @@ from functools import cache
 from importlib.resources import files
 from typing import NamedTuple
 
+from usd2kg.query.lookup.amounts import NUMBER_WORDS
 from usd2kg.query.lookup.prepositions import preposition_pattern
 
 __all__ = ["HEADINGS", "Phrase", "list_phrases", "match_phrase", "normalize"]
@@ -25,7 +26,8 @@ _PARAMETERS = {
     "thing": "[^?]+?",
     "other": "[^?]+?",
     "class": "[^?]+?",
-    "relation": preposition_pattern(),
+    # “Within two metres of” is a distance.
+    "relation": rf"(?!within (?:\d|an? |half |{'|'.join(NUMBER_WORDS)}))(?:{preposition_pattern()})",
     "distance": r"<number> ?((milli|centi)?met(er|re)s?|mm|cm|m)?",
     "amount": r"<number> ?([a-z]+|\")",
     "sides": r"<number>( ?[a-z]+)? ?(by|x|×) ?<number>( ?[a-z]+)?( ?(by|x|×) ?<number> ?[a-z]+)?",

@@ -92,7 +92,7 @@ class RelationAnswers:
         anchors = self._anchors(name, thing)
         understood = f"{'things' if what is None else what.text} {PREPOSITIONS[name]} {anchors.text}"
         found, note = self._by_relation(name, thing, anchors, is_direct=what is None), ""
-        if name == "inside" and what is None:
+        if name == "inside" and (what is None or what.text == "thing"):
             # The door of a microwave is a part of it, not what is in it.
             found -= self._nouns.parts(anchors.iris)
         if name in {"below", "near"} and (what is None or what.text == "thing"):

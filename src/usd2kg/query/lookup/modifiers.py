@@ -199,7 +199,7 @@ class PhraseModifiers:
         parts = _FOR_PURPOSE.fullmatch(text)
         first = self._find(parts["first"]) if parts is not None else None
         meant = self.find_for_purpose(parts["verb"]) if parts is not None and first is not None else None
-        if first is None or meant is None:
+        if first is None or meant is None or not meant.iris:
             return None
         return Things(tuple(iri for iri in first.iris if iri in meant.iris), text)
 

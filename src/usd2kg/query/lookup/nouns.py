@@ -73,12 +73,16 @@ class Nouns:
         self._modifiers = PhraseModifiers(facts, self._find)
         self._words_of_groups: dict[str, frozenset[str]] = {}
 
-    def find(self, text: str) -> Things:
+    def find(self, text: str, *, may_shorten: bool = True) -> Things:
         """Return the objects that a noun phrase means.
 
         Criteria in order: prim path; label; class or concept, with everything below it; all words in the label; a place
         in the prim path and the rest; relations (`cups on the table`); colours, materials and sizes before a noun; the
-        asset; other languages; spelling.
+        asset; other languages; the head of a compound that the lexicon lacks; spelling.
+
+        Args:
+            text: the noun phrase.
+            may_shorten: whether a compound may be read as its head, which the note says.
 
         Raises:
             UnknownWordError: a word is not understood; the message has the nearest ones.
@@ -111,7 +115,7 @@ class Nouns:
                     return replace(translated, note=f"“{' '.join(words)}” was read as “{translated.text}”")
         if len(words) > 1 and words[-1] in _FRAMES and (framed := self._find(" ".join(words[:-1]))) and framed.iris:
             return replace(framed, note=f"“{' '.join(words)}” was read as “{framed.text}”")
-        if not concepts_named(" ".join(words)) and (headed := self._of_head(words)) is not None:
+        if may_shorten and not concepts_named(" ".join(words)) and (headed := self._of_head(words)) is not None:
             return replace(headed, note=f"“{' '.join(words)}” was read as “{headed.text}”")
         return found or self._correct(words)
 
@@ -244,13 +248,13 @@ class Nouns:
                 if words == noun_words(label) if is_whole else words <= name_words(label):
                     yield iri
 
-    def _with_run(self, text: str) -> Iterator[str]:
-        """Yield the objects whose label has the words and numbers of a text next to each other: cabinet 9."""
+    def _with_run(self, text: str) -> list[str]:
+        """Return the objects whose label ends with the words and numbers of a text, else has them within."""
         run = name_parts(text)
-        for iri, label in self._facts.with_words(run):
-            parts = name_parts(label)
-            if any(parts[at : at + len(run)] == run for at in range(len(parts) - len(run) + 1)):
-                yield iri
+        labelled = [(iri, name_parts(label)) for iri, label in self._facts.with_words(run)]
+        ending = [iri for iri, parts in labelled if parts[-len(run) :] == run]
+        starts = range(max((len(parts) for _, parts in labelled), default=0))
+        return ending or [iri for iri, parts in labelled if any(parts[at : at + len(run)] == run for at in starts)]
 
     def kinds(self, text: str) -> list[ox.NamedNode]:
         """Return the classes and concepts that a noun names.
