@@ -31,7 +31,7 @@ def room(home_tbox: TBox) -> GraphStore:
     [
         ("where is the tallest chair", ["Chair_A"]),
         ("which objects are taller than the table?", ["Chair_A", "Chair_B", "Wardrobe"]),
-        ("show me chairs lower than a metre", None),
+        ("show me chairs lower than a metre", ["Chair_A", "Chair_B"]),
         ("where is the chair nearest to the table", ["Chair_B"]),
         ("which chair is furthest from the table?", ["Chair_A"]),
         ("list the chairs within two metres of the table", ["Chair_A", "Chair_B"]),
@@ -46,12 +46,8 @@ def room(home_tbox: TBox) -> GraphStore:
         ("what is near the table?", ["Chair_B"]),
     ],
 )
-def test_objects(room: GraphStore, question: str, expected: list[str] | None):
-    if expected is None:
-        with pytest.raises(GraphError, match=r"not understood|knows"):
-            ask_offline(room, question)
-    else:
-        assert [row[0] for row in ask_offline(room, question).answer.rows] == expected
+def test_objects(room: GraphStore, question: str, expected: list[str]):
+    assert [row[0] for row in ask_offline(room, question).answer.rows] == expected
 
 
 @pytest.mark.parametrize(

@@ -2,7 +2,7 @@
 
 import pytest
 
-from usd2kg.assistant.phrases import match_phrase
+from usd2kg.assistant.phrases import match_phrases
 from usd2kg.query.lookup.object_columns import _RELATIONS as COLUMNS
 from usd2kg.query.lookup.prepositions import RELATION_OF, preposition_pattern
 from usd2kg.query.query_templates import ABOVE, ATTACHED, INSIDE, NEAR, ON, parse_question
@@ -22,7 +22,7 @@ def test_short_questions_know_the_preposition(word: str, relation: str):
 # Questions read “are hanging” as the verb, and what is on a wall is what hangs there.
 @pytest.mark.parametrize("word", [word for word in RELATION_OF if not word.startswith(("hang", "mounted"))])
 def test_questions_know_the_preposition(word: str):
-    phrase = match_phrase(f"which cups are {word} table")
+    phrase = next(iter(match_phrases(f"which cups are {word} table")), None)
     assert phrase is not None
     assert phrase.given == {"class": "cups", "relation": word, "thing": "table"}
 

@@ -14,9 +14,10 @@ from usd2kg.assistant.sentences import (
     yes_or_no,
 )
 from usd2kg.errors import GraphError
-from usd2kg.query.lookup import Nouns, SceneFacts
+from usd2kg.query.lookup import Nouns, SceneFacts, UnknownWordError
 from usd2kg.query.lookup.amounts import NUMBER_WORDS, read_amount, read_sides
 from usd2kg.query.lookup.body_measures import COMPARED, ELEVATION, MASS, SAME, SIZE, SUPERLATIVES, BodyMeasures, Measure
+from usd2kg.query.lookup.word_forms import singular
 
 __all__ = ["ComparisonAnswers"]
 
@@ -37,6 +38,7 @@ class ComparisonAnswers:
             "choose": self._choose,
             "more": self._more,
             "limit": self._limit,
+            "more-than": self._more_than,
             "fits": self._fits,
         }
         return handlers.get(question)
@@ -131,6 +133,25 @@ class ComparisonAnswers:
             self._facts.table((*first.iris, *second.iris)),
             is_so,
             sentence=yes_or_no(is_so, f"there are {counts}{first.suffix}{second.suffix}."),
+        )
+
+    def _more_than(self, kind: str, adjective: str, count: str) -> InterpretedAnswer:
+        """Return whether there are more or fewer things of a kind than a number."""
+        dozens = {"a dozen": 12, "dozen": 12}
+        limit = (
+            dozens.get(count.lower()) or NUMBER_WORDS.get(count.lower()) or (int(count) if count.isdecimal() else None)
+        )
+        if limit is None:
+            raise UnknownWordError(f"{count!r} is not understood as a number")
+        things = self._nouns.find(kind)
+        many = len(things.iris)
+        is_so = many > limit if adjective.lower() == "more" else many < limit
+        return InterpretedAnswer(
+            f"whether there are {adjective} than {limit} {things.text}",
+            self._facts.table(things.iris),
+            is_so,
+            number=many,
+            sentence=yes_or_no(is_so, f"there are {count_phrase(many, singular(things.text))}{things.suffix}."),
         )
 
     def _limit(self, adjective: str, amount: str, kind: str = "things") -> InterpretedAnswer:

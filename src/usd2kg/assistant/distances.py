@@ -19,6 +19,9 @@ __all__ = ["DistanceAnswers"]
 _NEAREST = re.compile(r"^(the )?(nearest|closest) ", re.IGNORECASE)
 
 
+_END = re.compile(r"(the )?(?P<end>bottom|underside|lower|top|upper)( edge| side| end| rim)? of ", re.IGNORECASE)
+
+
 class DistanceAnswers:
     """Answers about distances in one graph, by the boxes of things."""
 
@@ -100,14 +103,16 @@ class DistanceAnswers:
         )
 
     def _elevation(self, thing: str) -> InterpretedAnswer:
-        """Return how high things are above the floor: their top if they carry something, else their bottom."""
-        things, facts = self._nouns.existing(thing), self._facts
+        """Return how high things are above the floor: the end that is named, else the top of what carries something."""
+        named = _END.match(thing)
+        things, facts = self._nouns.existing(_END.sub("", thing)), self._facts
         floor = self._floor_level()
         heights, parts = {}, []
         for iri in things.iris:
             lower, upper = self._ends(facts.body(iri), things)
             bottom, top = lower - floor, upper - floor
-            heights[iri] = round(top if iri in facts.supporters else bottom, 4)
+            is_top = iri in facts.supporters if named is None else named["end"].lower() in {"top", "upper"}
+            heights[iri] = round(top if is_top else bottom, 4)
             parts.append(f"{facts.label(iri)} is {number_text(bottom, 'm')} to {number_text(top, 'm')} above the floor")
         return InterpretedAnswer(
             f"how high above the floor: {things.text}",

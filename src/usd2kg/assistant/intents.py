@@ -6,7 +6,7 @@ from functools import cache
 from importlib.resources import files
 from typing import NamedTuple
 
-from usd2kg.assistant.phrases import HEADINGS, Phrase, normalize
+from usd2kg.assistant.phrases import HEADINGS, Phrase, normalize, split_clauses
 from usd2kg.grounding import concepts_named
 from usd2kg.knowledge import word_set
 from usd2kg.query.lookup.prepositions import preposition_pattern
@@ -60,16 +60,15 @@ def parse_intent(text: str) -> Phrase | None:
     Phrase(question='where', given={'thing': 'info desk'}, is_english=True)
     """
     whole = normalize(text)
-    clauses = [clause for clause in re.split(r"[,;.!?:] | - ", whole) if clause]
-    candidates = (whole, *(reversed(clauses) if len(clauses) > 1 else ()))
-    return next((found for one in candidates if (found := _parse(normalize(one))) is not None), None)
+    clauses = (whole, *reversed(split_clauses(whole)))
+    # A clause with a clear cue tells more than the last one.
+    found = (_parse(clause, intent) for intent in _intents() for clause in clauses)
+    return next((phrase for phrase in found if phrase is not None), None)
 
 
-def _parse(text: str) -> Phrase | None:
-    for question, argument, cue, is_english in _intents():
-        found = cue.search(text)
-        if found is None:
-            continue
+def _parse(text: str, intent: _Intent) -> Phrase | None:
+    question, argument, cue, is_english = intent
+    if cue.search(text) is not None:
         given = _measured(text, cue) if question == "measure" else {}
         phrase = _noun_phrase(cue.sub(f" {_BREAK} ", text))
         if argument == "pair":

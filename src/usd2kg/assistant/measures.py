@@ -89,7 +89,7 @@ class MeasureAnswers:
 
     def _measure_scene(self, text: str, measure: Measure) -> InterpretedAnswer:
         """Return a measure of the box around the walls and floors, or around all things if there are none."""
-        shells = {iri for noun in ("floor", "wall") for iri in self._nouns.find(noun).iris}
+        shells = {iri for noun in ("floor", "wall") for iri in self._nouns.find(noun, may_shorten=False).iris}
         bodies = [self._facts.body(iri) for iri in shells or self._facts.things]
         lower = [body.lower for body in bodies if body.lower is not None]
         upper = [body.upper for body in bodies if body.upper is not None]
@@ -215,7 +215,11 @@ class MeasureAnswers:
         facts, (width, depth, _) = self._facts, size
         floors = set(self._nouns.find("floor").iris)
         surfaces = [iri for iri in facts.things if iri in facts.supporters and iri not in moved and iri not in floors]
-        usual = {iri for noun in sorted(word_set("assistant", "surface_nouns")) for iri in self._nouns.find(noun).iris}
+        usual = {
+            iri
+            for noun in sorted(word_set("assistant", "surface_nouns"))
+            for iri in self._nouns.find(noun, may_shorten=False).iris
+        }
         found = find_free_places(facts, size, surfaces, moved)
         # A seat and a rug are level too, but people put things on tables.
         places = ([place for place in found if place.surface in usual] or found)[: PLACING.max_places]
@@ -258,7 +262,11 @@ class MeasureAnswers:
         """Return the things of a kind that a joint moves; without joints, those that open by what they are."""
         things, facts = self._nouns.find(kind), self._facts
         moved = facts.opened_by_joint & set(facts.things)
-        found = moved or {iri for noun in word_set("assistant", "closed_things") for iri in self._nouns.find(noun).iris}
+        found = moved or {
+            iri
+            for noun in word_set("assistant", "closed_things")
+            for iri in self._nouns.find(noun, may_shorten=False).iris
+        }
         if self._nouns.is_everything(kind):
             chosen = facts.sorted(found)
         else:

@@ -1,8 +1,10 @@
 """ask_offline: answer a question in people's words, without a language model."""
 
 import math
+import re
 from collections.abc import Callable, Collection, Mapping
 from dataclasses import replace
+from functools import partial
 from pathlib import Path
 
 from usd2kg.assistant.comparisons import ComparisonAnswers
@@ -11,7 +13,7 @@ from usd2kg.assistant.distances import DistanceAnswers
 from usd2kg.assistant.intents import parse_intent
 from usd2kg.assistant.interpreted_answer import InterpretedAnswer
 from usd2kg.assistant.measures import MeasureAnswers
-from usd2kg.assistant.phrases import Phrase, match_phrase, normalize
+from usd2kg.assistant.phrases import Phrase, match_phrases, normalize, split_clauses
 from usd2kg.assistant.relation_answers import PREPOSITIONS, RelationAnswers
 from usd2kg.assistant.sentences import (
     begin_sentence,
@@ -29,13 +31,13 @@ from usd2kg.assistant.swept_space import find_in_the_way
 from usd2kg.assistant.thing_lists import ThingLists
 from usd2kg.errors import GraphError
 from usd2kg.grounding import concepts_named
-from usd2kg.knowledge import word_map
+from usd2kg.knowledge import word_map, word_set
 from usd2kg.query import Answer, GraphStore
 from usd2kg.query.answer import join_answers
 from usd2kg.query.lookup import Nouns, Things, UnknownWordError
 from usd2kg.query.lookup.amounts import UNIT_SYMBOLS
 from usd2kg.query.lookup.body_measures import BodyMeasures
-from usd2kg.query.lookup.word_forms import singular, split_phrase
+from usd2kg.query.lookup.word_forms import is_plural, singular, split_phrase
 from usd2kg.query.questions import list_questions
 from usd2kg.query.unicode_text import check_text
 
@@ -56,9 +58,12 @@ def ask_offline(graph: GraphStore, text: str, since: Path | None = None) -> Inte
         GraphError: the question or one of its words is not understood.
     """
     check_text(text, "question")
-    phrase, intent = match_phrase(text), parse_intent(text)
-    read = phrase or intent
-    return _Answerer(graph, read is None or read.is_english, since).answer(text, phrase, intent)
+    found = [*match_phrases(text), *filter(None, [parse_intent(text)])]
+    return _Answerer(graph, not found or found[0].is_english, since).answer(text)
+
+
+_PRONOUN = re.compile(r"\b(it|them|they|one)\b", re.IGNORECASE)
+_STOP_WORDS = word_set("assistant", "fillers") | word_set("query", "connectives")
 
 
 class _Answerer:
@@ -99,32 +104,50 @@ class _Answerer:
             "with-parts": self._with_parts,
         }
 
-    def answer(self, text: str, phrase: Phrase | None, intent: Phrase | None) -> InterpretedAnswer:
+    def answer(self, text: str) -> InterpretedAnswer:
         """Return the answer to a question, by its pattern, else by its cue, or to a noun alone, such as `laptops?`."""
-        failed: GraphError | None = None
-        if phrase is not None:
+        phrases, intent = match_phrases(text), parse_intent(text)
+        readers: list[Callable[[], InterpretedAnswer]] = [partial(self._answer_phrase, phrase) for phrase in phrases]
+        readers += [partial(self._answer_intent, intent)] if intent is not None else []
+        readers += [] if readers else [lambda: self._list(self._nouns.find(normalize(text), may_shorten=False))]
+        failed: list[GraphError] = []
+        for read in readers:
             try:
-                return self._answer_phrase(phrase)
+                return read()
             except UnknownWordError as error:
-                # The pattern may have taken other words for a part of the noun.
-                failed = error
-        if intent is not None:
-            try:
-                return self._answer_intent(intent)
-            except UnknownWordError as error:
-                failed = failed or error
-        if failed is None:
-            try:
-                return self._list(self._nouns.find(normalize(text), may_shorten=False))
-            except UnknownWordError as error:
-                failed = error
-        elif phrase is not None:
-            raise failed
+                # A pattern may have taken other words for a part of the noun.
+                failed.append(error)
+        if (clause := self._with_antecedent(text)) is not None:
+            return self.answer(clause)
+        if phrases:
+            raise failed[0]
         raise GraphError(
-            f"question {text!r} is not understood ({failed}); expected a question like 'what is on the table?', "
+            f"question {text!r} is not understood ({failed[0]}); expected a question like 'what is on the table?', "
             "'where is the kettle?', 'how many cups are there?' or 'what must be moved to open the drawer?' "
             "(usd2kg query --list shows more); or let a language model write the query with --model"
-        ) from failed
+        ) from failed[0]
+
+    def _with_antecedent(self, text: str) -> str | None:
+        """Return the clause with a pronoun, and in its place a noun of the clauses before; None if there is none."""
+        clauses = split_clauses(text)
+        for at, clause in reversed([*enumerate(clauses)][1:]):
+            if (pronoun := _PRONOUN.search(clause)) is None:
+                continue
+            words = " ".join(clauses[:at]).split()
+            runs = (words[end - size : end] for size in range(4, 0, -1) for end in range(len(words), size - 1, -1))
+            named = (" ".join(run) for run in runs if not _STOP_WORDS.intersection(word.lower() for word in run))
+            many = pronoun[0].lower() in {"them", "they"}
+            noun = next((name for name in named if is_plural(name) is many and self._is_noun_here(name)), None)
+            if noun is not None:
+                return f"{clause[: pronoun.start()]}the {noun}{clause[pronoun.end() :]}"
+        return None
+
+    def _is_noun_here(self, text: str) -> bool:
+        """Return whether a text means objects of the scene, or names a kind that it lacks."""
+        try:
+            return bool(self._nouns.find(text, may_shorten=False).iris) or len(concepts_named(text)) == 1
+        except GraphError:
+            return False
 
     def _answer_intent(self, intent: Phrase) -> InterpretedAnswer:
         """Return the answer to a question that only its cue tells.
@@ -183,7 +206,7 @@ class _Answerer:
 
     def _is_there(self, kind: str) -> InterpretedAnswer:
         count, kind = split_number(kind)
-        things = self._nouns.find(kind)
+        things = self._nouns.find(kind, may_shorten=False)
         self._things.check_kind(things)
         answer = self._things.answer(things)
         yes = len(things.iris) >= count
@@ -251,6 +274,8 @@ class _Answerer:
         parts = self._nouns.related("part", wholes.iris, is_direct=True)
         if not parts:
             raise GraphError(f"not known: the graph states no parts of {wholes.text} as objects of their own")
+        if not what.iris:
+            raise GraphError(what.absence)
         chosen = [iri for iri in what.iris if iri in parts]
         sentence = f"{begin_sentence(self._things.the(wholes))} has {count_phrase(len(chosen), what.text)}."
         return InterpretedAnswer(
@@ -278,6 +303,7 @@ class _Answerer:
         return self._things.answer(named)
 
     def _which(self, kind: str, other: str) -> InterpretedAnswer:
+        self._nouns.existing(kind)
         return self._things.answer(self._nouns.find(f"{kind} {other}"))
 
     def _has_parts(self, kind: str, thing: str) -> InterpretedAnswer:

@@ -1,4 +1,4 @@
-"""match_phrase: question → question type and its parameters, by the patterns in `phrases.txt`."""
+"""match_phrases: question → question type and its parameters, by the patterns in `phrases.txt`."""
 
 import re
 from collections.abc import Mapping, Sequence
@@ -9,7 +9,7 @@ from typing import NamedTuple
 from usd2kg.query.lookup.amounts import NUMBER_WORDS
 from usd2kg.query.lookup.prepositions import preposition_pattern
 
-__all__ = ["HEADINGS", "Phrase", "list_phrases", "match_phrase", "normalize"]
+__all__ = ["HEADINGS", "Phrase", "list_phrases", "match_phrases", "normalize", "split_clauses"]
 
 
 class Phrase(NamedTuple):
@@ -36,13 +36,14 @@ _PARAMETERS = {
 }
 _POLITE = re.compile(
     r"(please|pls|(can|could) you(?! (see|find|spot|have)\b)|would you|"
-    r"tell me(?! about)|i want to know|i would like to know|do you know|hey|ok|so|"
+    r"tell me(?! about)|(i|we) (want|need|would like|have) to know|i'd like to know|i wonder|do you know|let me know|"
+    r"find out|check|if|whether|hey|hi|hello|robot|ok|so|sorry|excuse me|"
     r"and|bitte|s'il te plaît|por favor|per favore),?\s+(please )?",
     re.IGNORECASE,
 )
 _TRAILING = re.compile(
     r",?\s+(please|pls|thanks|thank you|bitte|in total|altogether|all together|overall|in all|anywhere|at all|exactly|"
-    r"right now|currently|for me|"
+    r"right now|currently|for me|yes or no|or not|i mean|"
     r"in (square |cubic )?(cm|mm|m|kg|(centi|milli)?met(er|re)s|kilograms|kilos|inches|feet))$",
     re.IGNORECASE,
 )
@@ -51,6 +52,12 @@ _COMMENT = re.compile(
     re.IGNORECASE,
 )
 """A remark on what is counted, which does not change the question: `doors, folding doors included`."""
+_PLACED = re.compile(
+    r"(?<=\w )(standing|lying|sitting|hanging|resting|placed|located|mounted|positioned|kept|stored) "
+    r"(?=(on|in|inside|at|by|near|under|next|beside|below|above|behind|between) \S)",
+    re.IGNORECASE,
+)
+"""Participles that add nothing to the preposition after them."""
 HEADINGS = {"# German, French, Spanish and Italian.": False, "# English.": True}
 """Heading of patterns → whether they are English."""
 _APOSTROPHE = "\u2019"
@@ -79,21 +86,34 @@ def _expand(pattern: str, words: Mapping[str, str]) -> str:
     return pattern
 
 
-def match_phrase(text: str) -> Phrase | None:
-    """Return the interpretation of a question; None if no pattern matches.
+def match_phrases(text: str) -> list[Phrase]:
+    """Return the interpretations of a question by the first pattern that matches all of it, and each of its clauses.
 
-    >>> match_phrase("Please tell me, what's on the table?")
-    Phrase(question='rel-what', given={'relation': 'on', 'thing': 'the table'}, is_english=True)
+    >>> match_phrases("Please tell me, what's on the table?")
+    [Phrase(question='rel-what', given={'relation': 'on', 'thing': 'the table'}, is_english=True)]
     """
     whole = normalize(text)
     # A remark before or after the question: I have some rubbish, where can I throw it away?
-    clauses = [normalize(clause) for clause in re.split(r"[,;.!?:] ", whole)]
-    for asked in (whole, *(reversed(clauses) if len(clauses) > 1 else ())):
-        for question, pattern, is_english in list_phrases():
-            if found := pattern.fullmatch(asked):
-                given = {name: value.strip() for name, value in found.groupdict().items() if value}
-                return Phrase(question, given, is_english)
+    found = map(_match, (whole, *reversed(split_clauses(whole))))
+    return [phrase for phrase in found if phrase is not None]
+
+
+def _match(asked: str) -> Phrase | None:
+    for question, pattern, is_english in list_phrases():
+        if found := pattern.fullmatch(asked):
+            given = {name: value.strip() for name, value in found.groupdict().items() if value}
+            return Phrase(question, given, is_english)
     return None
+
+
+def split_clauses(text: str) -> list[str]:
+    """Return the clauses of a question, normalised; none if it is a single one.
+
+    >>> split_clauses("I have some rubbish, where can I throw it away")
+    ['I have some rubbish', 'where can I throw it away']
+    """
+    clauses = [clause for part in re.split(r"[,;.!?:]+ | -+ ", text) if (clause := normalize(part))]
+    return clauses if len(clauses) > 1 else []
 
 
 def normalize(text: str) -> str:
@@ -107,6 +127,7 @@ def normalize(text: str) -> str:
     asked = re.sub(
         r"\b(directly|exactly|immediately) (?=(above|below|under|over|on|in|behind|next|beside)\b)", "", asked
     )
+    asked = _PLACED.sub("", re.sub(r"\b[ld]'(?=\w)", "", asked, flags=re.IGNORECASE))
     asked = re.sub(r"\s+(right here|in here|here in this room)\b", "", asked, flags=re.IGNORECASE)
     asked = re.sub(
         r"^(which|what)( one)? of (the |these |those )?(two |three |four )?", r"\1 ", asked, flags=re.IGNORECASE

@@ -5,7 +5,7 @@ import re
 from usd2kg.errors import GraphError
 from usd2kg.knowledge import word_map
 
-__all__ = ["NUMBER_NAMES", "NUMBER_WORDS", "UNIT_SYMBOLS", "read_amount", "read_sides"]
+__all__ = ["NUMBER_NAMES", "NUMBER_WORDS", "UNIT_SYMBOLS", "is_amount", "read_amount", "read_sides"]
 
 NUMBER_NAMES = ("no", "one", "two", "three", "four", "five", "six", "seven", "eight", "nine", "ten", "eleven", "twelve")
 NUMBER_WORDS = {word: number for number, word in enumerate(NUMBER_NAMES) if number}
@@ -28,13 +28,23 @@ UNIT_SYMBOLS = {**{symbol: symbol for symbol in _UNIT_SIZES}, **word_map("query"
 """Unit in a question, in lower case → symbol."""
 
 
+def is_amount(text: str) -> bool:
+    """Return whether a text begins like an amount: with a number in digits or words.
+
+    >>> is_amount("2 kg"), is_amount("two metres"), is_amount("metre"), is_amount("chair")
+    (True, True, True, False)
+    """
+    found = _AMOUNT.fullmatch(_with_number(text))
+    return found is not None and (found["number"][-1].isdigit() or found["unit"].lower() in UNIT_SYMBOLS)
+
+
 def read_amount(text: str) -> tuple[float, str]:
     """Return a quantity in metres or kilograms, and that unit.
 
     >>> read_amount("40 cm"), read_amount("500 g"), read_amount("two metres")
     ((0.4, 'm'), (0.5, 'kg'), (2.0, 'm'))
     """
-    found = _AMOUNT.fullmatch(text.strip())
+    found = _AMOUNT.fullmatch(_with_number(text))
     symbol = UNIT_SYMBOLS.get(found["unit"].lower()) if found is not None else None
     if found is None or symbol is None:
         raise GraphError(
@@ -44,6 +54,12 @@ def read_amount(text: str) -> tuple[float, str]:
     number = found["number"].lower()
     count = {**NUMBER_WORDS, **_ARTICLES}.get(number)
     return (float(number) if count is None else count) * size, unit
+
+
+def _with_number(text: str) -> str:
+    """Return an amount with its number, which the article of a unit may have been: `a metre`."""
+    word = text.strip().lower()
+    return f"1 {word}" if word in UNIT_SYMBOLS and len(word) > 2 else text.strip()
 
 
 def read_sides(text: str) -> tuple[float, float, float]:

@@ -5,7 +5,7 @@ from collections.abc import Callable, Iterable, Iterator
 
 from usd2kg.errors import GraphError
 from usd2kg.knowledge import word_map, word_set
-from usd2kg.query.lookup.amounts import read_amount
+from usd2kg.query.lookup.amounts import is_amount, read_amount
 from usd2kg.query.lookup.body_measures import COMPARED, SIZE, SUPERLATIVES, BodyMeasures, Measure
 from usd2kg.query.lookup.colors import COLORS, has_color, has_material, is_material
 from usd2kg.query.lookup.facts import SceneFacts
@@ -82,7 +82,7 @@ class PhraseModifiers:
 
     def find_for_purpose(self, verb: str) -> Things | None:
         """Return the things that an activity needs, or whose kind names it: sports equipment; None if unknown."""
-        if noun := word_map("query", "activity_things").get(verb.lower()):
+        for noun in filter(None, word_map("query", "activity_things").get(verb.lower(), "").split("/")):
             needed = self._find(noun)
             if needed is not None and needed.iris:
                 return Things(needed.iris, f"things to {verb.lower()}")
@@ -125,7 +125,7 @@ class PhraseModifiers:
         if parts is None or first is None:
             return None
         measure, sign = COMPARED[parts["adjective"]]
-        if re.match(r"\.?\d", parts["second"]):
+        if is_amount(parts["second"]):
             limit, unit = read_amount(parts["second"])
             if measure is SIZE or unit != measure.unit:
                 adjective = parts["adjective"]

@@ -1,10 +1,8 @@
 """Nouns: from words in a question to objects of the graph."""
 
-import os.path
 import re
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import replace
-from functools import cached_property
 
 import pyoxigraph as ox
 
@@ -16,26 +14,21 @@ from usd2kg.query.lookup.corrections import Spelling
 from usd2kg.query.lookup.facts import SceneFacts
 from usd2kg.query.lookup.kinds import Kinds
 from usd2kg.query.lookup.modifiers import PhraseModifiers, restricts
+from usd2kg.query.lookup.names import NameMatcher
 from usd2kg.query.lookup.prepositions import RELATION_OF, preposition_pattern
 from usd2kg.query.lookup.things import Things, UnknownWordError
 from usd2kg.query.lookup.word_forms import (
     is_noun,
     is_plural,
-    name_parts,
-    name_words,
     noun_words,
-    singular,
     split_phrase,
 )
-from usd2kg.query.settings import WORDS
-from usd2kg.words import split_identifier
 
 __all__ = ["Nouns"]
 
 _DETERMINERS = word_set("query", "determiners")
 _EVERYTHING = word_set("query", "general_nouns")
 _QUESTION_WORDS = word_set("query", "question_words")
-_AREAS = word_set("query", "area_nouns")
 _FRAMES = word_set("query", "framing_nouns")
 _CONNECTIVES = word_set("query", "connectives")
 _WHOLE_PLACES = word_set("query", "whole_places")
@@ -51,9 +44,6 @@ _ORIGIN = {"from": "inside"}
 _PREPOSITIONS = "|".join([preposition_pattern(_RELATIONS), *_ORIGIN])
 _RELATION_OF = {**RELATION_OF, **_ORIGIN}
 _RELATION = re.compile(rf"(?P<first>.+?) (?:that (?:is|are) )?(?P<relation>{_PREPOSITIONS}) (?P<second>.+)")
-
-_Criterion = Callable[[], Iterable[str]]
-"""Returns the objects that match a name in one way."""
 
 
 class Nouns:
@@ -71,7 +61,7 @@ class Nouns:
         self._kinds = Kinds(facts)
         self._spelling = Spelling(facts, self._kinds)
         self._modifiers = PhraseModifiers(facts, self._find)
-        self._words_of_groups: dict[str, frozenset[str]] = {}
+        self._names = NameMatcher(facts, self._kinds)
 
     def find(self, text: str, *, may_shorten: bool = True) -> Things:
         """Return the objects that a noun phrase means.
@@ -91,6 +81,8 @@ class Nouns:
         if named := self._facts.at_path(exact) or self._facts.labelled({exact} - {""}):
             return Things(tuple(self._facts.sorted(named)), exact)
         words = split_phrase(text)
+        if (with_name := self._names.in_text(words)) is not None:
+            return with_name
         while len(words) > 1 and words[0] in _NUMBERS:
             words = words[1:]
         if not words:
@@ -106,18 +98,27 @@ class Nouns:
         found = self._find(" ".join(words))
         if found is not None and found.iris:
             return self._of_this_name(text, found)
+        return self._translated(words, found) or self._shortened(words, may_shorten) or found or self._correct(words)
+
+    def _translated(self, words: Sequence[str], found: Things | None) -> Things | None:
+        """Return what words of another language mean, also nothing if they mean nothing else."""
         for language in (None,) if self._is_english else _LANGUAGES:
             if (english := translate(tuple(words), language)) and set(english) != set(words):
-                translated = self._find(" ".join(english)) or self._of_head([*english])
-                if translated is not None and not translated.iris:
+                translated = self._find(" ".join(english))
+                if translated is None or not translated.iris:
                     translated = self._of_head([*english]) or translated
                 if translated is not None and (translated.iris or found is None):
                     return replace(translated, note=f"“{' '.join(words)}” was read as “{translated.text}”")
-        if len(words) > 1 and words[-1] in _FRAMES and (framed := self._find(" ".join(words[:-1]))) and framed.iris:
-            return replace(framed, note=f"“{' '.join(words)}” was read as “{framed.text}”")
-        if may_shorten and not concepts_named(" ".join(words)) and (headed := self._of_head(words)) is not None:
-            return replace(headed, note=f"“{' '.join(words)}” was read as “{headed.text}”")
-        return found or self._correct(words)
+        return None
+
+    def _shortened(self, words: Sequence[str], may_shorten: bool) -> Things | None:
+        """Return what a compound means without a word that frames it, or by its head alone."""
+        short = self._find(" ".join(words[:-1])) if len(words) > 1 and words[-1] in _FRAMES else None
+        if short is None or not short.iris:
+            short = self._of_head(words) if may_shorten else None
+            if short is not None and len(short.iris) > 1 and concepts_named(" ".join(words)):
+                return None
+        return None if short is None else replace(short, note=f"“{' '.join(words)}” was read as “{short.text}”")
 
     def _of_head(self, words: Sequence[str]) -> Things | None:
         """Return the things of the last noun of a compound, or of its last two; None without such things."""
@@ -176,9 +177,9 @@ class Nouns:
         """Return what a phrase means as it is written; None if a word is unknown."""
         if text in _EVERYTHING:
             return Things(tuple(self._facts.things), "thing")
-        if found := self._named(text):
+        if found := self._names.named(text):
             return Things(tuple(found), text)
-        if (by_words := self._of_words(text)) is not None:
+        if (by_words := self._names.of_words(text)) is not None:
             return by_words
         readers = (
             self._modifiers.read_first,
@@ -193,68 +194,6 @@ class Nouns:
         is_name = bool(concepts_named(text)) or _CONNECTIVES.isdisjoint(text.split())
         # The noun is known, and no object is one.
         return Things((), text) if is_name and (is_noun(text) or self._kinds.find(text)) else None
-
-    def _named(self, text: str) -> list[str]:
-        """Return the objects with this name, of this kind, or with these words, by the first criterion with a match."""
-        facts, lower, words, names = self._facts, text.lower(), noun_words(text), name_words(text)
-        exact: tuple[_Criterion, ...] = (
-            lambda: facts.at_path(text),
-            lambda: facts.labelled({text, lower, text.upper(), text.title(), text.capitalize()}),
-            lambda: self._with_run(text) if any(letter.isdigit() for letter in text) else (),
-        )
-        named: tuple[_Criterion, ...] = (
-            lambda: facts.named(lower),
-            lambda: facts.named("".join(lower.split())) or facts.named("_".join(lower.split())) if " " in lower else (),
-            lambda: self._with_words(names, is_whole=True) if len(words) > 1 and words == names else (),
-            lambda: self._main_of_group(lower),
-        )
-        kinds: tuple[_Criterion, ...] = (
-            lambda: self._in_place(text) if self._is_plain(text) else (),
-            lambda: self._kinds.objects(text),
-        )
-        # One noun is rarely a name, and all names of a large graph take seconds to read.
-        for criterion in (*exact, *kinds, *named) if text.isalpha() else (*exact, *named, *kinds):
-            if found := facts.sorted(criterion()):
-                return found
-        return []
-
-    def _of_words(self, text: str) -> Things | None:
-        """Return the objects with these words in the label, in the path or in the name of the asset.
-
-        A word that a label begins with is what the thing is for, not what it is, unless nothing else is known of it.
-        """
-        facts, names = self._facts, name_words(text)
-        labelled = facts.sorted(self._with_words(names))
-        if len(labelled) > max(1, len(facts.things) * WORDS.max_label_share):
-            # The name of a project or an asset pack says nothing about single objects.
-            labelled = []
-        if labelled and is_noun(text):
-            head = singular(text.rsplit(maxsplit=1)[-1].lower())
-            exact = [iri for iri in labelled if facts.concept(iri) is None or _head_of(facts.label(iri)) == head]
-            return Things(tuple(exact or labelled), text, is_by_name=not exact)
-        if labelled:
-            return Things(tuple(labelled), text)
-        rest: tuple[_Criterion, ...] = (
-            lambda: self._in_place(text),
-            lambda: (iri for asset, iris in facts.assets() if names and names <= name_words(asset) for iri in iris),
-        )
-        found: list[str] = next((one for criterion in rest if (one := facts.sorted(criterion()))), [])
-        return Things(tuple(found), text) if found else None
-
-    def _with_words(self, words: frozenset[str], *, is_whole: bool = False) -> Iterator[str]:
-        """Yield the objects whose label has some words; if whole, no others but numbers."""
-        if words:
-            for iri, label in self._facts.with_words(words):
-                if words == noun_words(label) if is_whole else words <= name_words(label):
-                    yield iri
-
-    def _with_run(self, text: str) -> list[str]:
-        """Return the objects whose label ends with the words and numbers of a text, else has them within."""
-        run = name_parts(text)
-        labelled = [(iri, name_parts(label)) for iri, label in self._facts.with_words(run)]
-        ending = [iri for iri, parts in labelled if parts[-len(run) :] == run]
-        starts = range(max((len(parts) for _, parts in labelled), default=0))
-        return ending or [iri for iri, parts in labelled if any(parts[at : at + len(run)] == run for at in starts)]
 
     def kinds(self, text: str) -> list[ox.NamedNode]:
         """Return the classes and concepts that a noun names.
@@ -275,38 +214,13 @@ class Nouns:
             f"the classes {', '.join(self._kinds.used_labels)}"
         )
 
-    def _in_place(self, text: str) -> set[str]:
-        """Return the objects of a kind below a group that the words before the noun name: dining chairs."""
-        words = text.split()
-        for start in range(1, len(words)):
-            place = noun_words(" ".join(words[:start]))
-            kind = self._kinds.objects(" ".join(words[start:]))
-            if found := {iri for iri in kind if place <= self._group_words(self._group(iri))}:
-                return found
-        return set()
-
-    def _is_plain(self, text: str) -> bool:
-        """Return whether the words before a noun do not make another kind: a dining chair is a chair."""
-        *before, last = text.split()
-        head = singular(last)
-        return bool(before) and not set(concepts_named(" ".join([*before, head]))).isdisjoint(concepts_named(head))
-
-    def _main_of_group(self, name: str) -> set[str]:
-        """Return the objects of the kind that a group is named after: the desk of Desk_A1."""
-        grouped = set(self._facts.below_group(name))
-        if not grouped:
-            return set()
-        noun = " ".join(word for word in split_identifier(name) if word.isalpha() and len(word) > 1)
-        return (self._kinds.objects(noun) & grouped) or grouped
-
     def in_area(self, text: str) -> set[str]:
         """Return the objects below the groups that are named after a place: the reception area."""
-        words = noun_words(" ".join(word for word in split_phrase(text) if word not in _AREAS))
-        return {iri for iri in self._facts.things if words and words <= self._group_words(self._group(iri))}
+        return self._names.in_area(text)
 
     def shells(self) -> set[str]:
         """Return what surrounds a room, which nobody asks for as a neighbour of a thing."""
-        return {iri for noun in _SHELLS for iri in self.find(noun).iris}
+        return {iri for noun in _SHELLS for iri in self.find(noun, may_shorten=False).iris}
 
     def is_everything(self, text: str) -> bool:
         """Return whether a noun means any thing."""
@@ -315,22 +229,7 @@ class Nouns:
     def lacks_room(self, text: str) -> bool:
         """Return whether a noun means a room that the graph does not have."""
         noun = " ".join(split_phrase(text))
-        return noun in _ROOM_NOUNS and not self._kinds.objects(noun) and not self.in_area(noun)
-
-    def _group(self, iri: str) -> str:
-        """Return the path of the groups of an object, without the root that all share."""
-        return self._facts.path(iri).rpartition("/")[0].removeprefix(self._root)
-
-    def _group_words(self, group: str) -> frozenset[str]:
-        # Objects share groups.
-        if group not in self._words_of_groups:
-            self._words_of_groups[group] = noun_words(group)
-        return self._words_of_groups[group]
-
-    @cached_property
-    def _root(self) -> str:
-        groups = {path.rpartition("/")[0] for path in self._facts.columns.paths}
-        return os.path.commonpath([group for group in groups if group] or ["/"])
+        return noun in _ROOM_NOUNS and not self._kinds.objects(noun) and not self._names.in_area(noun)
 
     def _restricted(self, text: str) -> Things | None:
         """Return the things that stand in a relation to others: `cups on the table`."""
@@ -356,7 +255,7 @@ class Nouns:
         parts = self.parts(wholes.iris) if wholes is not None else set()
         if chosen := tuple(iri for iri in first.iris if iri in parts):
             return Things(chosen, text)
-        below = self.in_area(whole)
+        below = self._names.in_area(whole)
         chosen = tuple(iri for iri in first.iris if iri in below)
         return Things(chosen, text) if chosen or wholes is not None else None
 
@@ -380,11 +279,11 @@ class Nouns:
         try:
             anchors = self.find(text)
         except UnknownWordError:
-            if relation != "inside" or not (area := self.in_area(text)):
+            if relation != "inside" or not (area := self._names.in_area(text)):
                 raise
             return area
         found = self.related(relation, anchors.iris, is_direct=is_direct)
-        if relation == "inside" and not found and (area := self.in_area(text)):
+        if relation == "inside" and not found and (area := self._names.in_area(text)):
             return area
         if not anchors.iris:
             raise GraphError(anchors.absence)
@@ -393,7 +292,7 @@ class Nouns:
     def is_whole_scene(self, text: str) -> bool:
         """Return whether a noun means the scene: the shop, or the room where the graph has none."""
         is_place = text in _WHOLE_PLACES or not _PLACE_KINDS.isdisjoint(hypernyms_of(text))
-        is_scene = is_place or (text.isalpha() and text in noun_words(self._root))
+        is_scene = is_place or (text.isalpha() and text in noun_words(self._names.root))
         return is_scene and not self._kinds.objects(text) and not (text == "room" and self._facts.has_rooms)
 
     def related(self, relation: str, anchors: Iterable[str], *, is_direct: bool) -> set[str]:
@@ -440,9 +339,3 @@ class Nouns:
 
     def _is_known(self, word: str) -> bool:
         return _RELATION_OF.get(word) in _RELATIONS or word in _DETERMINERS or is_noun(word)
-
-
-def _head_of(label: str) -> str:
-    """Return the last word of a label in the singular: `rack` of ShoeRack_01."""
-    words = [part.lower() for part in split_identifier(label) if part.isalpha() and len(part) > 1]
-    return singular(words[-1]) if words else ""

@@ -1,0 +1,151 @@
+"""NameMatcher: from words to the objects whose names, kinds or groups have them."""
+
+import os.path
+from collections.abc import Callable, Iterable, Iterator
+from functools import cached_property
+
+from usd2kg.grounding import concepts_named
+from usd2kg.knowledge import word_set
+from usd2kg.query.lookup.facts import SceneFacts
+from usd2kg.query.lookup.kinds import Kinds
+from usd2kg.query.lookup.things import Things
+from usd2kg.query.lookup.word_forms import is_noun, name_parts, name_words, noun_words, singular, split_phrase
+from usd2kg.query.settings import WORDS
+from usd2kg.words import split_identifier
+
+__all__ = ["NameMatcher"]
+
+_AREAS = word_set("query", "area_nouns")
+
+_Criterion = Callable[[], Iterable[str]]
+"""Returns the objects that match a name in one way."""
+
+
+class NameMatcher:
+    """Finds objects of one graph by their names, kinds and groups."""
+
+    def __init__(self, facts: SceneFacts, kinds: Kinds) -> None:
+        self._facts = facts
+        self._kinds = kinds
+        self._words_of_groups: dict[str, frozenset[str]] = {}
+
+    def in_text(self, words: list[str]) -> Things | None:
+        """Return the objects whose whole name stands after a noun: the book stack BookD_01_003."""
+        *nouns, name = words or [""]
+        if not nouns or not any(letter.isdigit() for letter in name) or not all(map(is_noun, nouns)):
+            return None
+        found = self._facts.labelled([name])
+        return Things(tuple(self._facts.sorted(found)), name) if found else None
+
+    def named(self, text: str) -> list[str]:
+        """Return the objects with this name, of this kind, or with these words, by the first criterion with a match."""
+        facts, lower, words, names = self._facts, text.lower(), noun_words(text), name_words(text)
+        exact: tuple[_Criterion, ...] = (
+            lambda: facts.at_path(text),
+            lambda: facts.labelled({text, lower, text.upper(), text.title(), text.capitalize()}),
+            lambda: self._with_run(text) if any(letter.isdigit() for letter in text) else (),
+        )
+        named: tuple[_Criterion, ...] = (
+            lambda: facts.named(lower),
+            lambda: facts.named("".join(lower.split())) or facts.named("_".join(lower.split())) if " " in lower else (),
+            lambda: self._with_words(names, is_whole=True) if len(words) > 1 and words == names else (),
+            lambda: self._main_of_group(lower),
+        )
+        kinds: tuple[_Criterion, ...] = (
+            lambda: self._in_place(text) if self._is_plain(text) else (),
+            lambda: self._kinds.objects(text),
+        )
+        # One noun is rarely a name, and all names of a large graph take seconds to read.
+        for criterion in (*exact, *kinds, *named) if text.isalpha() else (*exact, *named, *kinds):
+            if found := facts.sorted(criterion()):
+                return found
+        return []
+
+    def of_words(self, text: str) -> Things | None:
+        """Return the objects with these words in the label, in the path or in the name of the asset.
+
+        A word that a label begins with is what the thing is for, not what it is, unless nothing else is known of it.
+        """
+        facts, names = self._facts, name_words(text)
+        labelled = facts.sorted(self._with_words(names))
+        if len(labelled) > max(1, len(facts.things) * WORDS.max_label_share):
+            # The name of a project or an asset pack says nothing about single objects.
+            labelled = []
+        if labelled and is_noun(text):
+            head = singular(text.rsplit(maxsplit=1)[-1].lower())
+            exact = [iri for iri in labelled if facts.concept(iri) is None or _head_of(facts.label(iri)) == head]
+            return Things(tuple(exact or labelled), text, is_by_name=not exact)
+        if labelled:
+            return Things(tuple(labelled), text)
+        rest: tuple[_Criterion, ...] = (
+            lambda: self._in_place(text),
+            lambda: (iri for asset, iris in facts.assets() if names and names <= name_words(asset) for iri in iris),
+        )
+        found: list[str] = next((one for criterion in rest if (one := facts.sorted(criterion()))), [])
+        return Things(tuple(found), text) if found else None
+
+    def in_area(self, text: str) -> set[str]:
+        """Return the objects below the groups that are named after a place: the reception area."""
+        words = noun_words(" ".join(word for word in split_phrase(text) if word not in _AREAS))
+        return {iri for iri in self._facts.things if words and words <= self._group_words(self._group(iri))}
+
+    def _with_words(self, words: frozenset[str], *, is_whole: bool = False) -> Iterator[str]:
+        """Yield the objects whose label has some words; if whole, no others but numbers."""
+        if words:
+            for iri, label in self._facts.with_words(words):
+                if words == noun_words(label) if is_whole else words <= name_words(label):
+                    yield iri
+
+    def _with_run(self, text: str) -> list[str]:
+        """Return the objects whose label ends with the words and numbers of a text, else has them within."""
+        run = name_parts(text)
+        labelled = [(iri, name_parts(label)) for iri, label in self._facts.with_words(run)]
+        ending = [iri for iri, parts in labelled if parts[-len(run) :] == run]
+        starts = range(max((len(parts) for _, parts in labelled), default=0))
+        return ending or [iri for iri, parts in labelled if any(parts[at : at + len(run)] == run for at in starts)]
+
+    def _in_place(self, text: str) -> set[str]:
+        """Return the objects of a kind below a group that the words before the noun name: dining chairs."""
+        words = text.split()
+        for start in range(1, len(words)):
+            place = noun_words(" ".join(words[:start]))
+            kind = self._kinds.objects(" ".join(words[start:]))
+            if found := {iri for iri in kind if place <= self._group_words(self._group(iri))}:
+                return found
+        return set()
+
+    def _is_plain(self, text: str) -> bool:
+        """Return whether the words before a noun do not make another kind: a dining chair is a chair."""
+        *before, last = text.split()
+        head = singular(last)
+        return bool(before) and not set(concepts_named(" ".join([*before, head]))).isdisjoint(concepts_named(head))
+
+    def _main_of_group(self, name: str) -> set[str]:
+        """Return the objects of the kind that a group is named after: the desk of Desk_A1."""
+        grouped = set(self._facts.below_group(name))
+        if not grouped:
+            return set()
+        noun = " ".join(word for word in split_identifier(name) if word.isalpha() and len(word) > 1)
+        return (self._kinds.objects(noun) & grouped) or grouped
+
+    def _group(self, iri: str) -> str:
+        """Return the path of the groups of an object, without the root that all share."""
+        return self._facts.path(iri).rpartition("/")[0].removeprefix(self.root)
+
+    def _group_words(self, group: str) -> frozenset[str]:
+        # Objects share groups.
+        if group not in self._words_of_groups:
+            self._words_of_groups[group] = noun_words(group)
+        return self._words_of_groups[group]
+
+    @cached_property
+    def root(self) -> str:
+        """The prim path that the groups of all objects begin with."""
+        groups = {path.rpartition("/")[0] for path in self._facts.columns.paths}
+        return os.path.commonpath([group for group in groups if group] or ["/"])
+
+
+def _head_of(label: str) -> str:
+    """Return the last word of a label in the singular: `rack` of ShoeRack_01."""
+    words = [part.lower() for part in split_identifier(label) if part.isalpha() and len(part) > 1]
+    return singular(words[-1]) if words else ""
