@@ -85,7 +85,9 @@ def _parse(text: str, intent: _Intent) -> Phrase | None:
 
 def _measured(text: str, cue: re.Pattern[str]) -> dict[str, str]:
     """Return the measure that a question names; the size if it names several."""
-    words = {word.lower() for found in cue.finditer(text) if (word := found["adjective"] or found["noun"])}
+    words = {
+        word.lower() for found in cue.finditer(text) if (word := next(filter(None, found.groupdict().values()), ""))
+    }
     return {"adjective": words.pop() if len(words) == 1 else "size"}
 
 

@@ -14,7 +14,7 @@ from usd2kg.knowledge import word_map, word_set
 from usd2kg.query.body_table import Body
 from usd2kg.query.lookup import Nouns, SceneFacts, UnknownWordError
 from usd2kg.query.lookup.amounts import read_sides
-from usd2kg.query.lookup.body_measures import MASS, MEASURES, SIZE, BodyMeasures, Measure
+from usd2kg.query.lookup.body_measures import AREA, MASS, MEASURES, SIZE, BodyMeasures, Measure
 from usd2kg.query.lookup.colors import COLORS, has_color, has_material, is_material, material_words, own_colors
 from usd2kg.query.lookup.modifiers import restricts
 from usd2kg.query.lookup.word_forms import split_phrase
@@ -74,6 +74,8 @@ class MeasureAnswers:
             if measure is SIZE and extents is not None:
                 sides = " × ".join(f"{side:.2f}" for side in reversed(extents))
                 parts.append(f"{facts.label(iri)} measures {sides} m")
+            elif measure is AREA:
+                parts.append(f"{facts.label(iri)} covers {number_text(value, measure.unit)}")
             elif measure is MASS:
                 parts.append(f"{facts.label(iri)} weighs {number_text(value, 'kg')}")
             else:
@@ -108,7 +110,7 @@ class MeasureAnswers:
             sentence=sentence,
         )
 
-    def _color(self, thing: str) -> InterpretedAnswer:
+    def _color(self, thing: str, **_: str) -> InterpretedAnswer:
         things, facts = self._nouns.existing(thing), self._facts
         colors = {iri: ", ".join(own_colors(facts, iri)) for iri in things.iris if own_colors(facts, iri)}
         if not colors:

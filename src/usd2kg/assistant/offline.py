@@ -62,7 +62,7 @@ def ask_offline(graph: GraphStore, text: str, since: Path | None = None) -> Inte
     return _Answerer(graph, not found or found[0].is_english, since).answer(text)
 
 
-_PRONOUN = re.compile(r"\b(it|them|they|one)\b", re.IGNORECASE)
+_PRONOUN = re.compile(r"\b(it|them|they)\b|(?<=there )one\b|(?<=find )one\b|(?<=see )one\b", re.IGNORECASE)
 _STOP_WORDS = word_set("assistant", "fillers") | word_set("query", "connectives")
 
 

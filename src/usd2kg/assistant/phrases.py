@@ -36,7 +36,8 @@ _PARAMETERS = {
 }
 _POLITE = re.compile(
     r"(please|pls|(can|could) you(?! (see|find|spot|have)\b)|would you|"
-    r"tell me(?! about)|(i|we) (want|need|would like|have) to know|i'd like to know|i wonder|do you know|let me know|"
+    r"tell me(?! about)|is it true that|can it be that|(can|could) (someone|somebody|anyone|anybody) (tell me|say)|"
+    r"(i|we) (want|need|would like|have) to know|i'd like to know|i wonder|do you know|let me know|"
     r"find out|check|if|whether|hey|hi|hello|robot|ok|so|sorry|excuse me|"
     r"and|bitte|s'il te plaît|por favor|per favore),?\s+(please )?",
     re.IGNORECASE,
@@ -53,13 +54,14 @@ _COMMENT = re.compile(
 )
 """A remark on what is counted, which does not change the question: `doors, folding doors included`."""
 _PLACED = re.compile(
-    r"(?<=\w )(standing|lying|sitting|hanging|resting|placed|located|mounted|positioned|kept|stored) "
+    r"(?<=\w )(standing|set|lying|sitting|hanging|resting|placed|located|mounted|positioned|kept|stored) "
     r"(?=(on|in|inside|at|by|near|under|next|beside|below|above|behind|between) \S)",
     re.IGNORECASE,
 )
 """Participles that add nothing to the preposition after them."""
 HEADINGS = {"# German, French, Spanish and Italian.": False, "# English.": True}
 """Heading of patterns → whether they are English."""
+_CLAUSE_END = re.compile(r"[,;!?:] | -+ ")
 _APOSTROPHE = "\u2019"
 
 
@@ -95,7 +97,11 @@ def match_phrases(text: str) -> list[Phrase]:
     whole = normalize(text)
     # A remark before or after the question: I have some rubbish, where can I throw it away?
     found = map(_match, (whole, *reversed(split_clauses(whole))))
-    return [phrase for phrase in found if phrase is not None]
+    # A noun over two clauses is the last resort: where is the oven, please?
+    return sorted(
+        (phrase for phrase in found if phrase is not None),
+        key=lambda phrase: any(_CLAUSE_END.search(value) for value in phrase.given.values()),
+    )
 
 
 def _match(asked: str) -> Phrase | None:

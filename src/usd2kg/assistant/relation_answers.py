@@ -180,7 +180,7 @@ class RelationAnswers:
         note = " (by boxes, as seen from among the surrounding objects)"
         return {iri for one in found for iri in one or ()}, note
 
-    def _between(self, thing: str, other: str) -> InterpretedAnswer:
+    def _between(self, thing: str, other: str, kind: str = "things") -> InterpretedAnswer:
         first, second = self._nouns.existing(thing), self._nouns.existing(other)
         pairs = [(one, two) for one in first.iris for two in second.iris if one != two]
         if len(pairs) != 1:
@@ -188,6 +188,9 @@ class RelationAnswers:
         between = find_between(self._facts, *pairs[0])
         if between is None:
             raise GraphError(f"not known: the graph has no boxes for {first.text} and {second.text}")
+        if not self._nouns.is_everything(kind):
+            of_kind = set(self._nouns.existing(kind).iris)
+            between = [iri for iri in between if iri in of_kind]
         verb = "is" if len(between) < 2 else "are"
         named = name_things(self._facts, between) or "nothing"
         sentence = f"{named} {verb} between {self._things.the(first)} and {self._things.the(second)}."

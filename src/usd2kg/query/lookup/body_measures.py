@@ -11,7 +11,18 @@ from usd2kg.query.body_table import Body
 from usd2kg.query.lookup.facts import SceneFacts
 from usd2kg.query.lookup.things import Things
 
-__all__ = ["COMPARED", "ELEVATION", "MASS", "MEASURES", "SAME", "SIZE", "SUPERLATIVES", "BodyMeasures", "Measure"]
+__all__ = [
+    "AREA",
+    "COMPARED",
+    "ELEVATION",
+    "MASS",
+    "MEASURES",
+    "SAME",
+    "SIZE",
+    "SUPERLATIVES",
+    "BodyMeasures",
+    "Measure",
+]
 
 
 class Measure(NamedTuple):
@@ -35,6 +46,14 @@ def _mean_side(body: Body) -> float | None:
     return None if body.extents is None else float(np.prod(body.extents)) ** (1 / 3)
 
 
+def _area(body: Body) -> float | None:
+    """Return the area of the footprint of a box, in m²."""
+    if body.lower is None or body.upper is None:
+        return None
+    width, depth, _ = body.upper - body.lower
+    return float(width * depth)
+
+
 def _bottom(body: Body) -> float | None:
     return None if body.lower is None else float(body.lower[2])
 
@@ -45,6 +64,7 @@ DEPTH = Measure("deep", "m", lambda body: _side(body, 0))
 LENGTH = Measure("long", "m", lambda body: None if body.extents is None else body.extents[2])
 THICKNESS = Measure("thick", "m", lambda body: None if body.extents is None else body.extents[0])
 MASS = Measure("heavy", "kg", lambda body: body.mass)
+AREA = Measure("large in area", "m²", _area)
 SIZE = Measure("large", "m", _mean_side)
 ELEVATION = Measure("high up", "m", _bottom)
 _BY_NAME = {
@@ -54,6 +74,7 @@ _BY_NAME = {
     "length": LENGTH,
     "thickness": THICKNESS,
     "mass": MASS,
+    "area": AREA,
     "size": SIZE,
     "elevation": ELEVATION,
 }

@@ -175,6 +175,8 @@ class Nouns:
 
     def _find(self, text: str) -> Things | None:
         """Return what a phrase means as it is written; None if a word is unknown."""
+        if not text:
+            return None
         if text in _EVERYTHING:
             return Things(tuple(self._facts.things), "thing")
         if found := self._names.named(text):
@@ -236,19 +238,27 @@ class Nouns:
         parts = _RELATION.fullmatch(text)
         if parts is None:
             return None
-        first = self._find(noun := " ".join(split_phrase(parts["first"])))
-        if first is None and not self._is_english:
-            first = self._find(" ".join(translate(tuple(noun.split()), None) or ()))
+        first = self._noun_within(" ".join(split_phrase(parts["first"])))
         if first is None:
             return None
         near = self.around(_RELATION_OF[parts["relation"]], parts["second"], is_direct=False)
         shown = f"{first.text} {parts['relation']} {parts['second']}"
         return Things(tuple(iri for iri in first.iris if iri in near), shown)
 
+    def _noun_within(self, noun: str) -> Things | None:
+        """Return what a noun means within a phrase, where a language or a compound may be foreign to the graph."""
+        found = self._find(noun)
+        if found is not None and found.iris:
+            return found
+        words = noun.split()
+        if not self._is_english and (english := translate(tuple(words), None)):
+            found = self._find(" ".join(english)) or found
+        return found if concepts_named(noun) else self._of_head(words) or found
+
     def _part_of(self, text: str) -> Things | None:
         """Return the things that are parts of others, or of a group: `drawers of cabinet 10`."""
         noun, _, whole = text.partition(" of ")
-        first = self._find(noun) if whole else None
+        first = self._noun_within(noun) if whole else None
         if first is None:
             return None
         wholes = self._find(" ".join(split_phrase(whole)))
