@@ -16,7 +16,9 @@ app = typer.Typer(no_args_is_help=True, rich_markup_mode=None, help="Share the c
 
 @app.command("export")
 def export_completions(
-    recording: Annotated[Path, Argument(help="JSON Lines file to write: a prompt and its completions on each line.")],
+    recording: Annotated[
+        Path, Argument(help="JSON Lines file to write, a prompt and completion a line; compressed if it ends in .gz.")
+    ],
     completions: CompletionCacheFile = None,
 ) -> None:
     """Write all cached completions to a recording, which others can replay without keys."""

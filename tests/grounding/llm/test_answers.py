@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 
 from tests.grounding.records import LAB, SOMA, make_class, make_tbox
 from usd2kg.grounding import ObjectView
-from usd2kg.grounding.llm.answers import ParsedAnswer, parse_answers, repair_request
+from usd2kg.grounding.llm.answers import Defect, ParsedAnswer, parse_answers, repair_request
 from usd2kg.grounding.llm.prompt_options import PromptOptions, Strategy
 from usd2kg.grounding.llm.prompts import Batch, build_requests
 from usd2kg.grounding.model import Status
@@ -136,7 +136,9 @@ class TestClasses:
         ],
     )
     def test_an_unknown_class_is_unreadable(self, written: object, problem: str) -> None:
-        assert one(written) == ParsedAnswer(None, Status.UNREADABLE, problem=problem)
+        answer = one(written)
+        defect = Defect.HALLUCINATED if problem.endswith("of the list") else None
+        assert answer == ParsedAnswer(None, Status.UNREADABLE, problem=problem, defect=defect)
 
     def test_a_row_without_class_is_unreadable(self) -> None:
         assert parse('{"1": {"klass": "Cup"}}', 1)[0].problem == "its row has no class"

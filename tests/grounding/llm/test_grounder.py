@@ -16,11 +16,12 @@ import pytest
 from tests.grounding.records import make_object, make_scene
 from usd2kg.errors import GroundingError
 from usd2kg.grounding import NamingRegime, ObjectView, Status, ground
+from usd2kg.grounding.llm.answers import Defect
 from usd2kg.grounding.llm.cache import CompletionCache
 from usd2kg.grounding.llm.completion import Client, Completion, Finish, Request, Usage
 from usd2kg.grounding.llm.grounder import LLMGrounder
 from usd2kg.grounding.llm.grouping import group_similar_views
-from usd2kg.grounding.llm.metered_client import Budget, MeteredClient
+from usd2kg.grounding.llm.metered_client import Budget, MeteredClient, Spending
 from usd2kg.grounding.llm.prices import Tariff, parse_price
 from usd2kg.grounding.llm.prompt_options import PromptOptions, Strategy
 from usd2kg.ontology import TBox
@@ -141,6 +142,55 @@ def test_reports_an_answer_that_stays_unreadable(home_tbox: TBox):
     assert (prediction.class_iri, prediction.confidence, prediction.status) == (None, None, Status.UNREADABLE)
     assert prediction.explanation
     assert grounder.report.degenerate == 2  # The answer and its repair.
+
+
+def test_counts_the_objects_of_each_defect_of_final_answers(home_tbox: TBox):
+    texts = {
+        "mug": '{"1": {"class": "Chalice"}}',
+        "bowl": "la " * 300,
+        "fork": '{"1": {"class": null}}',
+        "plate": '{"1": {"class": "Plate"}}',
+    }
+    model = Model(lambda request: next(text for name, text in texts.items() if f'name: "{name}"' in request.user))
+    grounder = make_grounder(model, PromptOptions(strategy=Strategy.NAME_ONLY))
+    assert answers(kitchen(*texts), home_tbox, grounder)[:3] == [None] * 3
+    # A refusal is no defect, and the repair of the hallucination and of the loop repeat the same text.
+    assert grounder.report.defects == {Defect.HALLUCINATED: 1, Defect.DEGENERATE: 1}
+
+
+def test_a_repaired_answer_has_no_defect(home_tbox: TBox):
+    def respond(request: Request) -> str:
+        return always("Cup" if len(model.requests) > 1 else "Chalice")(request)
+
+    model = Model(respond)
+    grounder = make_grounder(model, PromptOptions())
+    assert answers(kitchen("mug"), home_tbox, grounder) == ["Cup"]
+    assert grounder.report.defects == {}
+
+
+def test_a_restarted_report_is_empty_and_the_budget_counts_on(home_tbox: TBox, tmp_path: Path):
+    price = parse_price("1000/0")  # A completion of 100 tokens costs 10 cents.
+    with CompletionCache(tmp_path / "cache.sqlite") as cache:
+        model = Model(always("Cup"))
+        names = PromptOptions(strategy=Strategy.NAME_ONLY)
+        grounder = make_grounder(model, names, cache=cache, workers=1, tariff=price, budget=Decimal("0.20"))
+        assert answers(kitchen("mug", "bowl"), home_tbox, grounder) == ["Cup", "Cup"]
+        assert (grounder.report.price, len(grounder.report.keys)) == (Decimal("0.2"), 2)
+        grounder.restart_report()
+        assert answers(kitchen("mug", "bowl", "fork"), home_tbox, grounder)[2] is None, "the budget is spent"
+    report = grounder.report
+    assert (report.completions, report.cached, report.price) == (0, 2, 0)
+    assert (report.cached_usage, report.cached_price) == (Usage(200, 80, 20), Decimal("0.2"))
+    assert len(report.keys) == 2
+
+
+def test_clients_with_common_spending_share_a_budget(home_tbox: TBox):
+    spending = Spending()
+    clients = [MeteredClient(Model(always("Cup")), budget=Budget(tokens=110), spending=spending) for _ in range(2)]
+    first, second = (LLMGrounder(client, PromptOptions()) for client in clients)
+    assert answers(kitchen("mug"), home_tbox, first) == ["Cup"]
+    [refused] = ground(kitchen("mug"), home_tbox, second).predictions
+    assert refused.explanation == "not asked: 110 tokens are used of a budget of 110; raise --token-budget"
 
 
 def test_repair_replaces_only_unreadable_answers(home_tbox: TBox):

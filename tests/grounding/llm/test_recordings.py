@@ -1,6 +1,7 @@
 """Export and import of recorded completions."""
 
 import base64
+import gzip
 import hashlib
 import json
 from dataclasses import replace
@@ -100,6 +101,35 @@ def test_exports_an_empty_cache(cache, tmp_path: Path):
     assert cache.export_recording(tmp_path / "empty.jsonl") == 0
     assert (tmp_path / "empty.jsonl").read_bytes() == b""
     assert cache.import_recording(tmp_path / "empty.jsonl") == 0
+
+
+def test_exports_some_completions_compressed(cache, tmp_path: Path):
+    for number in range(3):
+        cache.put(MODEL, request_about(number), Completion(f"answer {number}"))
+    path = tmp_path / "some.jsonl.gz"
+    wanted = {request_key(MODEL, request_about(1)), "sha256:0"}
+    assert cache.export_recording(path, wanted) == 1
+    first = path.read_bytes()
+    assert [json.loads(line)["key"] for line in gzip.decompress(first).splitlines()] == [
+        request_key(MODEL, request_about(1))
+    ]
+    cache.export_recording(path, wanted)
+    assert path.read_bytes() == first
+    with CompletionCache(tmp_path / "other.sqlite") as other:
+        assert other.import_recording(path) == 1
+        assert other.get(MODEL, request_about(1)) == Completion("answer 1")
+
+
+@pytest.mark.parametrize(
+    "damage", [lambda data: data[:-9], lambda data: b"no gzip", lambda data: data[:12] + b"\xff" * 40]
+)
+def test_rejects_a_damaged_compressed_recording(cache, tmp_path: Path, damage):
+    cache.put(MODEL, REQUEST, COMPLETION)
+    path = tmp_path / "some.jsonl.gz"
+    cache.export_recording(path)
+    path.write_bytes(damage(path.read_bytes()))
+    with pytest.raises(GroundingError, match="cannot be read as a recording of completions"):
+        cache.import_recording(path)
 
 
 def test_import_keeps_existing_completions(cache, tmp_path: Path):

@@ -3,7 +3,8 @@
 import json
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from typing import Any
+from enum import StrEnum
+from typing import Any, NamedTuple
 
 from usd2kg.errors import OntologyError
 from usd2kg.grounding.llm.answer_rows import AnswerRow, read_answer_rows
@@ -15,10 +16,19 @@ from usd2kg.grounding.llm.token_logprobs import TokenLogprobs
 from usd2kg.grounding.model import Status
 from usd2kg.ontology import ClassIRI, TBox, compact_iri
 
-__all__ = ["ParsedAnswer", "parse_answers", "repair_request"]
+__all__ = ["Defect", "ParsedAnswer", "parse_answers", "repair_request"]
 
 _REFUSALS = frozenset({"none", "null", "unknown", "n/a"})
 """Class names that count as a refusal unless a class is called so."""
+
+
+class Defect(StrEnum):
+    """Why an answer names no class, as the study distinguishes it."""
+
+    HALLUCINATED = "hallucinated class"
+    """It names a class that was not offered."""
+    DEGENERATE = "degenerate output"
+    """The completion is empty, repeats itself or was truncated before it named a class."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -33,6 +43,8 @@ class ParsedAnswer:
     """Text that the model wrote before the class; empty if none."""
     problem: str = ""
     """What is wrong, in one sentence with quotes from the completion; empty if nothing is."""
+    defect: Defect | None = None
+    """None for an answer with a class, and for other problems, such as a refusal."""
     logprob: float | None = None
     """Natural log-probability of the class name.
 
@@ -76,29 +88,35 @@ def _read_value(row: Any, batch: Batch, tbox: TBox) -> ParsedAnswer:
         return ParsedAnswer(None, Status.REFUSED, reasoning, "the model named no class")
     if not isinstance(value, str):
         return ParsedAnswer(None, Status.UNREADABLE, reasoning, f"{quote(json.dumps(value))} is not a class name")
-    class_iri, problem = _resolve(value.strip(), batch, tbox)
+    class_iri, problem, defect = _resolve(value.strip(), batch, tbox)
     if class_iri is None and value.strip().casefold() in _REFUSALS:
         return ParsedAnswer(None, Status.REFUSED, reasoning, f"the model named no class but {quote(value)}")
-    return ParsedAnswer(class_iri, Status.GROUNDED if class_iri else Status.UNREADABLE, reasoning, problem)
+    return ParsedAnswer(class_iri, Status.GROUNDED if class_iri else Status.UNREADABLE, reasoning, problem, defect)
 
 
-def _resolve(name: str, batch: Batch, tbox: TBox) -> tuple[ClassIRI | None, str]:
-    """Return the offered class called `name`, else None and the reason."""
+class _Resolution(NamedTuple):
+    class_iri: ClassIRI | None
+    problem: str = ""
+    defect: Defect | None = None
+
+
+def _resolve(name: str, batch: Batch, tbox: TBox) -> _Resolution:
+    """Return the offered class called `name`, else the reason why there is none."""
     if name in batch.classes:
-        return batch.classes[name], ""
+        return _Resolution(batch.classes[name])
     for is_exact in (True, False):
         matches = _match_offered(name, batch, tbox, is_exact=is_exact)
         if len(matches) > 1:
-            return None, f"{quote(name)} may mean {' or '.join(matches)}"
+            return _Resolution(None, f"{quote(name)} may mean {' or '.join(matches)}")
         if matches:
-            return batch.classes[matches[0]], ""
+            return _Resolution(batch.classes[matches[0]])
     try:
         iri = tbox.resolve(name)
     except OntologyError:
-        return None, f"{quote(name)} is not a class of the list"
+        return _Resolution(None, f"{quote(name)} is not a class of the list", Defect.HALLUCINATED)
     if iri in batch.classes.values():
-        return iri, ""
-    return None, f"{quote(name)} is a class, but not one of the list"
+        return _Resolution(iri)
+    return _Resolution(None, f"{quote(name)} is a class, but not one of the list", Defect.HALLUCINATED)
 
 
 def _match_offered(name: str, batch: Batch, tbox: TBox, *, is_exact: bool) -> list[str]:

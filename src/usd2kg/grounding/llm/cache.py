@@ -10,11 +10,13 @@ Opening a file of format 1 upgrades it to format 2. Completions are kept without
 stored instead of token log-probabilities. Versions of usd2kg that know only format 1 then reject the file.
 """
 
+import gzip
 import json
 import os
 import sqlite3
 import time
-from collections.abc import Iterator
+import zlib
+from collections.abc import Collection, Iterator
 from contextlib import ExitStack, contextmanager, suppress
 from pathlib import Path
 from threading import Lock, RLock
@@ -42,6 +44,7 @@ __all__ = ["CompletionCache", "default_cache_path"]
 
 _APPLICATION_ID = int.from_bytes(b"u2kg")
 _FILE_VERSION = 2
+_COMPRESSED = ".gz"
 _SCHEMA = (
     "CREATE TABLE IF NOT EXISTS shared (digest TEXT PRIMARY KEY, text TEXT NOT NULL)",
     "CREATE TABLE IF NOT EXISTS completions (key TEXT PRIMARY KEY, system TEXT NOT NULL REFERENCES shared,"
@@ -116,10 +119,14 @@ class CompletionCache:
         with self._transaction("BEGIN IMMEDIATE"):
             self._insert(row, replace=replace)
 
-    def export_recording(self, path: Path) -> int:
-        """Write all completions with their requests as JSON Lines in UTF-8, sorted by key, and return their number.
+    def export_recording(self, path: Path, keys: Collection[str] | None = None) -> int:
+        """Write completions with their requests as JSON Lines in UTF-8, sorted by key, and return their number.
 
-        Caches with equal content produce equal bytes.
+        Caches with equal content produce equal bytes. A file that ends in `.gz` is compressed.
+
+        Args:
+            path: the recording.
+            keys: the completions to write, as far as they are in the cache; None for all.
 
         Raises:
             OutputError: the file cannot be written.
@@ -127,8 +134,11 @@ class CompletionCache:
         if path.resolve() == self.path:
             raise OutputError(f"{path}: is the cache itself; choose another file for the recording")
         with self._lock, self._translated():
-            lines = [format_line(*row) for row in self._connection.execute(_EXPORT)]
-        write_whole(path, b"".join(lines))
+            rows = self._connection.execute(_EXPORT)
+            lines = [format_line(*row) for row in rows if keys is None or row[0] in keys]
+        recording = b"".join(lines)
+        # Without a time stamp, so that the bytes are reproducible.
+        write_whole(path, gzip.compress(recording, mtime=0) if path.suffix == _COMPRESSED else recording)
         return len(lines)
 
     def import_recording(self, path: Path) -> int:
@@ -137,15 +147,17 @@ class CompletionCache:
         Raises:
             GroundingError: the file or one of its lines cannot be read; nothing is added.
         """
+        read = gzip.open if path.suffix == _COMPRESSED else open
         try:
-            with path.open("rb") as file, self._transaction("BEGIN IMMEDIATE"):
+            with read(path, "rb") as file, self._transaction("BEGIN IMMEDIATE"):
                 before = len(self)
                 for number, line in enumerate(file, start=1):
                     self._insert(read_line(path, number, line))
                 return len(self) - before
-        except OSError as error:
+        except (OSError, EOFError, zlib.error) as error:
+            reason = getattr(error, "strerror", None) or error
             raise GroundingError(
-                f"{path}: cannot be read as a recording of completions ({error.strerror}); check its name"
+                f"{path}: cannot be read as a recording of completions ({reason}); check its name"
             ) from error
 
     def close(self) -> None:

@@ -1,9 +1,9 @@
 """LLMSettings: the user's settings of a language model, and the grounders and clients made from them."""
 
 import weakref
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import ExitStack, contextmanager
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from decimal import Decimal
 from pathlib import Path
 
@@ -14,7 +14,7 @@ from usd2kg.grounding.llm.completion import Client, Completion, Request
 from usd2kg.grounding.llm.grounder import LLMGrounder
 from usd2kg.grounding.llm.limits import LIMITS
 from usd2kg.grounding.llm.local.client import is_local_model, open_local
-from usd2kg.grounding.llm.metered_client import Budget, MeteredClient
+from usd2kg.grounding.llm.metered_client import Budget, MeteredClient, Spending
 from usd2kg.grounding.llm.prices import find_tariff, parse_price
 from usd2kg.grounding.llm.prompt_options import PromptOptions, Strategy
 from usd2kg.grounding.llm.prompts import Example
@@ -22,7 +22,14 @@ from usd2kg.grounding.llm.settings import CONCEPTS, SAMPLING
 from usd2kg.grounding.llm.traffic import Traffic
 from usd2kg.grounding.platt_scaling import read_scaling
 
-__all__ = ["LLMSettings", "make_llm_grounder", "open_llm_grounder", "open_metered_client", "parse_llm_name"]
+__all__ = [
+    "LLMSettings",
+    "make_llm_grounder",
+    "open_llm_grounder",
+    "open_llm_grounders",
+    "open_metered_client",
+    "parse_llm_name",
+]
 
 
 @dataclass(frozen=True, slots=True)
@@ -92,23 +99,59 @@ def open_llm_grounder(
         GroundingError: the model is unknown, a key is missing, the cache cannot be opened, the price is malformed, or
             there is a budget in dollars but no known price.
     """
-    scaling = read_scaling(settings.calibration) if settings.calibration is not None else None
     with ExitStack() as stack:
         client = _open_metered_client(settings, stack, is_dry=is_dry)
-        yield LLMGrounder(
-            client,
-            _prompt_options(settings),
-            shares_answers=not settings.is_each_object,
-            shortlist=settings.shortlist,
-            # A model in this process serves one prompt at a time; further workers would only delay an interrupt.
-            workers=1 if is_local_model(settings.model) else settings.concurrency,
-            samples=settings.samples,
-            first_sample=settings.first_sample,
-            examples=examples,
-            picture=picture,
-            scaling=scaling,
-            progress=progress,
-        )
+        yield _make_grounder(settings, client, examples, picture, progress)
+
+
+@contextmanager
+def open_llm_grounders(
+    names: Iterable[str], settings: LLMSettings, progress: Callable[[int, int], None] | None = None
+) -> Iterator[Mapping[str, LLMGrounder]]:
+    """Open grounders by name, like `llm-B:MODEL`, with one client for each model and one budget for all.
+
+    Args:
+        names: strategies and models.
+        settings: all other settings; its model and strategy have no effect.
+        progress: called with the number of objects that are done and the total of one call of a grounder.
+
+    Raises:
+        GroundingError: see `open_llm_grounder`, or a name has another form.
+    """
+    spending = Spending()
+    clients: dict[str, MeteredClient] = {}
+    grounders = {}
+    with ExitStack() as stack:
+        for name in names:
+            model, strategy = parse_llm_name(name)
+            own = replace(settings, model=model, strategy=strategy)
+            if model not in clients:
+                clients[model] = _open_metered_client(own, stack, spending)
+            grounders[name] = _make_grounder(own, clients[model], progress=progress)
+        yield grounders
+
+
+def _make_grounder(
+    settings: LLMSettings,
+    client: MeteredClient,
+    examples: Sequence[Example] = (),
+    picture: Callable[[str], bytes | None] | None = None,
+    progress: Callable[[int, int], None] | None = None,
+) -> LLMGrounder:
+    return LLMGrounder(
+        client,
+        _prompt_options(settings),
+        shares_answers=not settings.is_each_object,
+        shortlist=settings.shortlist,
+        # A model in this process serves one prompt at a time; further workers would only delay an interrupt.
+        workers=1 if is_local_model(settings.model) else settings.concurrency,
+        samples=settings.samples,
+        first_sample=settings.first_sample,
+        examples=examples,
+        picture=picture,
+        scaling=read_scaling(settings.calibration) if settings.calibration is not None else None,
+        progress=progress,
+    )
 
 
 @contextmanager
@@ -139,7 +182,9 @@ def _prompt_options(settings: LLMSettings) -> PromptOptions:
     )
 
 
-def _open_metered_client(settings: LLMSettings, stack: ExitStack, *, is_dry: bool = False) -> MeteredClient:
+def _open_metered_client(
+    settings: LLMSettings, stack: ExitStack, spending: Spending | None = None, *, is_dry: bool = False
+) -> MeteredClient:
     tariff = find_tariff(settings.model) if settings.price is None else parse_price(settings.price)
     budget = Budget(settings.token_budget, settings.budget)
     if is_dry:
@@ -147,7 +192,13 @@ def _open_metered_client(settings: LLMSettings, stack: ExitStack, *, is_dry: boo
     cache = stack.enter_context(CompletionCache(settings.completions or default_cache_path()))
     client, traffic = _open_client(settings, stack)
     return MeteredClient(
-        client, cache=cache, is_refreshed=settings.is_refreshed, budget=budget, tariff=tariff, traffic=traffic
+        client,
+        cache=cache,
+        is_refreshed=settings.is_refreshed,
+        budget=budget,
+        spending=spending,
+        tariff=tariff,
+        traffic=traffic,
     )
 
 

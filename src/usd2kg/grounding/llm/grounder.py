@@ -9,7 +9,7 @@ from typing import NamedTuple
 
 from usd2kg.errors import GroundingError
 from usd2kg.grounding.context.views import ObjectView
-from usd2kg.grounding.llm.answers import ParsedAnswer, parse_answers, repair_request
+from usd2kg.grounding.llm.answers import Defect, ParsedAnswer, parse_answers, repair_request
 from usd2kg.grounding.llm.class_lists import name_classes
 from usd2kg.grounding.llm.completion import Completion, Finish
 from usd2kg.grounding.llm.concept_groups import group_by_concept
@@ -102,6 +102,10 @@ class LLMGrounder:
         """Counts and cost of the run so far."""
         return self._client.report
 
+    def restart_report(self) -> None:
+        """Count anew; grounders with the same client share its report."""
+        self._client.restart_report()
+
     @property
     def settings(self) -> Mapping[str, str]:
         """The settings that affect its predictions."""
@@ -166,6 +170,8 @@ class LLMGrounder:
         predictions: dict[int, Prediction] = {}
         for batch, answers in self._run(batches, tbox):
             for index, answer in zip(batch.indices, answers, strict=True):
+                if answer.answer.defect is not None:
+                    self.report.defects[answer.answer.defect] += len(groups[index])
                 for member in groups[index]:
                     predictions[member] = self._predict(views[member][0], answer, len(groups[index]))
             if self._progress is not None:
@@ -229,6 +235,7 @@ class LLMGrounder:
         if completion.finish is not Finish.STOP or is_degenerate(completion.text):
             with self._client.lock:
                 self.report.degenerate += 1
+            return [_as_degenerate(answer) for answer in answers]
         return answers
 
     def _predict(self, path: str, scored: ScoredAnswer, sharing: int) -> Prediction:
@@ -247,6 +254,11 @@ class LLMGrounder:
 
     def _scale(self, confidence: float | None) -> float | None:
         return confidence if confidence is None or self._scaling is None else self._scaling(confidence)
+
+
+def _as_degenerate(answer: ParsedAnswer) -> ParsedAnswer:
+    is_lost = answer.status is Status.UNREADABLE and answer.defect is None
+    return replace(answer, defect=Defect.DEGENERATE) if is_lost else answer
 
 
 def _score(answer: ParsedAnswer) -> ScoredAnswer:
