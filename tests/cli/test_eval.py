@@ -9,6 +9,7 @@ import pytest
 
 from tests.evaluation.conftest import omit_png_and_pdf
 from tests.grounding.llm.servers import openai_reply, refuse, serve
+from tests.scene.usda import component, cube, xform
 
 GOLD = "path,class,also\n/Room/Table_1,Table,\n/Room/coffee_mug,Bowl,Cup\n/Room/Nowhere,Sofa,\n"
 
@@ -34,6 +35,22 @@ def test_run_prints_json_in_the_units_of_the_study(run, room: Path, gold: Path) 
         assert lower <= upper
     assert [score["status"] for score in data["scores"]] == ["grounded", "grounded", "missing"]
     assert data["settings"]["regime"] == "semantic"
+
+
+def test_objects_that_the_selection_misses_are_wrong_end_to_end(run, write_stage, tmp_path: Path) -> None:
+    scene = write_stage(
+        xform("Room", component("Shelf_1", cube("board"), cube("Cup_1")), component("Cup_2", cube("m")))
+    )
+    gold = tmp_path / "gold.csv"
+    gold.write_text("path,class\n/Room/Shelf_1/Cup_1,Cup\n/Room/Cup_2,Cup\n", encoding="utf-8")
+    data = json.loads(run("eval", "run", scene, "--gold", gold, "--json").out)
+    assert data["selection"]["missed"] == ["/Room/Shelf_1/Cup_1"]
+    assert (data["ema"], data["hf1"], data["answered"]) == (100, 1, 2)
+    end_to_end = data["end_to_end"]
+    assert (end_to_end["ema"], end_to_end["hf1"], end_to_end["answered"]) == (50, 0.5, 1)
+    text = run("eval", "run", scene, "--gold", gold).out
+    assert re.search(r"exact match end to end % +50\.0 ", text)
+    assert re.search(r"HF1\) +1\.000 .*\n  end to end +0\.500 ", text)
 
 
 def test_run_prints_wrong_answers_with_reasons(run, room: Path, gold: Path) -> None:
@@ -186,7 +203,8 @@ def test_kitchen_set_lists_objects_without_gold(run, tmp_path: Path) -> None:
     )
     done = run("eval", "kitchen-set", tmp_path)
     assert (done.code, done.out) == (0, "/Kitchen/a\n")
-    assert "1 object (the study has 125)" in done.err
+    assert "1 objects, 1 of them with geometry and not inside another object (the study has 125)" in done.err
+    assert "label these objects with usd2kg eval annotate" in done.err
 
 
 @pytest.mark.parametrize(

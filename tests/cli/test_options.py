@@ -16,7 +16,7 @@ OF_ONE_COMMAND = {
     "--all": "diff shows changes, the others findings",
     "--base": "diff takes the namespace of the other graph",
     "--format": "ground writes mappings, diff writes changes",
-    "--gold": "optional in eval kitchen-set",
+    "--gold": "eval reproduce takes it for --study",
     "--memory-limit": "of a scene in batch, of a query in serve",
     "--output": "each command writes another kind of file",
     "--profile": "build has auto, ontology shapes has not",
@@ -24,7 +24,7 @@ OF_ONE_COMMAND = {
     "--relation-kinds": "build finds, diff compares them",
     "--time-limit": "of a scene in batch, of a query in serve",
     "--workers": "scenes in batch, queries in serve",
-    "--scene": "store load names a new graph, the others choose an existing one",
+    "--scene": "a file for eval reproduce, else a graph: store load names a new one, the others choose one",
 }
 """Option → why its meaning differs between commands."""
 

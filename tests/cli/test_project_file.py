@@ -137,6 +137,7 @@ class TestEveryOption:
             # What the option qualifies.
             beside = ["--decisions=d.csv"] if key == "reviewer" else []
             beside += ["--color-by=class"] if words == ("render",) and key != "color-by" else []
+            beside += ["--study"] if words == ("eval", "reproduce") and key != "study" else []
             found = read_project_options(app, [*command, *beside, "scene"])
             assert found is not None, key
             assert found.keys == (key,)

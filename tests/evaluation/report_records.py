@@ -6,6 +6,7 @@ from pathlib import Path
 from usd2kg.evaluation import CellResult, GoldLabel, SceneResult
 from usd2kg.evaluation.matrix import OWN_ABLATION, STUDY_ABLATION, Cell, SceneSpec
 from usd2kg.evaluation.metrics.selection_scores import SelectionScore
+from usd2kg.evaluation.model_cost import ModelCost
 from usd2kg.evaluation.run import score_grounding
 from usd2kg.grounding import Grounding, NamingRegime, Prediction, Status
 from usd2kg.ontology import OntologyClass, TBox
@@ -52,7 +53,8 @@ def _object(path: str) -> SceneObject:
 
 def run(
     spec: SceneSpec, method: str, condition: str, answers: Answers, gold: tuple[GoldLabel, ...], classes: TBox,
-    *, repeat: int = 1, seconds: float = 0.4,
+    *, repeat: int = 1, seconds: float = 0.4, missed: tuple[str, ...] = (), cascade: float | None = None,
+    cost: ModelCost | None = None,
 ) -> CellResult:  # fmt: skip
     ablation = {**STUDY_ABLATION, **OWN_ABLATION}.get(condition)
     regime = ablation[0] if ablation else NamingRegime(condition)
@@ -62,8 +64,9 @@ def run(
         for path, (name, confidence) in answers.items()
     )
     grounding = Grounding("/somewhere/tiny.usda", "sha256:1", NS, "sha256:0", method, {}, True, "0", predictions)
-    cell = Cell(spec, method, condition, regime, evidence, repeat)
-    return CellResult(cell, score_grounding(grounding, gold, classes, seconds), was_stored=False)
+    cell = Cell(spec, method, condition, regime, evidence, repeat, cascade)
+    evaluation = score_grounding(grounding, gold, classes, seconds, missed=missed)
+    return CellResult(cell, evaluation, was_stored=False, cost=cost)
 
 
 def tiny(
@@ -87,7 +90,7 @@ def tiny(
     also = {"/W/Bowl_1": frozenset({NS + "Cup"})}
     labels = tuple(GoldLabel(path, NS + cls, also.get(path, frozenset())) for path, cls in gold.items())
     runs = {("first", "semantic"): FIRST, ("second", "semantic"): SECOND} if runs is None else runs
-    cells = [run(spec, *key, answers, labels, classes, seconds=seconds) for key, answers in runs.items()]
+    cells = [run(spec, *key, answers, labels, classes, seconds=seconds, missed=missed) for key, answers in runs.items()]
     cells += [
         run(spec, "first", "semantic", answers, labels, classes, repeat=number, seconds=seconds)
         for number, answers in enumerate(repeats, 2)

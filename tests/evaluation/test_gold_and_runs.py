@@ -89,6 +89,15 @@ def test_summary_uses_the_units_of_the_study() -> None:
     json.dumps(data)
 
 
+def test_missed_objects_have_no_answer_end_to_end() -> None:
+    gold = [label("/a", "Cup"), label("/b", "Cup")]
+    evaluation = score_grounding(grounding_of({"/a": "Cup", "/b": "Cup"}), gold, TBOX, 0.1, missed=("/b",))
+    assert (evaluation.summary.ema, evaluation.end_to_end.ema) == (100.0, 50.0)
+    assert [score.answer for score in evaluation.scores] == [E + "Cup"] * 2, "the scores are those on the gold's list"
+    data = evaluation_json(evaluation)
+    assert (data["end_to_end"]["ema"], data["end_to_end"]["answered"]) == (50.0, 1)
+
+
 def test_reads_back_every_score_of_a_result_file(tmp_path: Path) -> None:
     gold = [label("/a", "Cup", also="Bowl"), label("/b", "Bowl")]
     evaluation = score_grounding(grounding_of({"/a": "Bowl", "/b": None}), gold, TBOX, 0.1)

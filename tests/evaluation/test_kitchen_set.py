@@ -1,12 +1,15 @@
 """Checking a download of the Kitchen Set."""
 
+from collections.abc import Callable
 from pathlib import Path
 
 import pytest
 from pxr import Usd, UsdGeom
 
+from tests.scene.usda import component, cube, xform
 from usd2kg.errors import EvaluationError
-from usd2kg.evaluation.kitchen_set import check_kitchen_set, crate_version, kitchen_matrix
+from usd2kg.evaluation.kitchen_set import check_kitchen_set, crate_version, kitchen_scene, study_objects
+from usd2kg.scene import read_scene
 
 
 def _crate(path: Path) -> Path:
@@ -45,11 +48,21 @@ def test_rejects_a_folder_without_the_kitchen_set(tmp_path: Path) -> None:
         check_kitchen_set(tmp_path)
 
 
-def test_plans_the_studys_matrix_for_a_readable_download(tmp_path: Path) -> None:
+def test_is_the_scene_of_a_matrix_if_it_is_readable(tmp_path: Path) -> None:
     root = tmp_path / "Kitchen_set" / "Kitchen_set.usd"
     _crate(root.parent / "asset.usdc")
     root.write_text("#usda 1.0\n")
     found = check_kitchen_set(tmp_path)
     assert (found.root, found.layer_count) == (root, 2)
-    plan = kitchen_matrix(found, tmp_path / "gold.csv", None)
-    assert {cell.condition for cell in plan.cells()} >= {"semantic", "opaque", "geometry only"}
+    scene = kitchen_scene(found, tmp_path / "gold.csv", None)
+    assert (scene.path, scene.gold, scene.missing) == (root, tmp_path / "gold.csv", tmp_path / "gold.csv")
+
+
+def test_the_studys_objects_have_geometry_and_are_not_inside_another(write_stage: Callable[..., Path]) -> None:
+    drawer = component("Drawer", cube("front", size=0.2))
+    path = write_stage(
+        xform("Kitchen", component("Cabinet", cube("body"), drawer), component("Empty"), component("Cup", cube("cup")))
+    )
+    scene = read_scene(path)
+    assert {obj.name for obj in scene.objects} >= {"Cabinet", "Drawer", "Cup"}
+    assert [obj.name for obj in study_objects(scene)] == ["Cabinet", "Cup"]

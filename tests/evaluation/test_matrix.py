@@ -100,9 +100,26 @@ def test_rescores_stored_answers_when_gold_changes(matrix: Path, tmp_path: Path)
     assert result.cells[0].evaluation.summary.ema == 50.0
 
 
+def test_cascades_run_each_language_model_at_each_threshold(matrix: Path) -> None:
+    text = matrix.read_text().replace("repeats = 2", "cascade = [0.5, 0.9]")
+    matrix.write_text(text.replace('["lexical"]', '["lexical", "llm-B:openai:m"]'))
+    cells = [cell for cell in read_matrix(matrix).cells() if cell.scene.name == "room" and cell.regime == "semantic"]
+    assert [cell.method for cell in cells] == [
+        "lexical",
+        "llm-B:openai:m",
+        "llm-B:openai:m, cascade 0.5",
+        "llm-B:openai:m, cascade 0.9",
+    ]
+
+
 @pytest.mark.parametrize(
     ("old", "new", "said"),
     [
+        ("repeats = 2", "cascade = [0.5]", "cascade needs a language model; expected a grounder like llm-B:MODEL"),
+        ("repeats = 2", "cascade = 0.5", "cascade is 0.5; expected a list of confidences from 0 to 1"),
+        ("repeats = 2", "cascade = [80]", "expected a list of confidences from 0 to 1"),
+        ("repeats = 2", 'cascade = ["0.8"]', "expected a list of confidences from 0 to 1"),
+        ("repeats = 2", "cascade = [true]", "expected a list of confidences from 0 to 1"),
         ('grounders = ["lexical"]', 'grounders = ["oracle"]', "grounder 'oracle' is unknown"),
         ('"opaque"', '"foggy"', "expected one of semantic"),
         ("repeats = 2", "repeat = 2", "matrix has the unknown key 'repeat'; expected"),

@@ -12,32 +12,41 @@ class TestMainTable:
     def test_uses_the_studys_format(self):
         # HF1 of the first: (1 + .8 + 2/3 + 1) / 4 = .867; of the second: 1 / 4.
         table = result_tables.main_table(tiny())
-        assert table.title == "Tiny (n = 4 objects, 3 distinct names): EMA % / HF1 by naming regime"
+        assert table.title == "Tiny (n = 4 objects, 3 distinct names): EMA % / HF1 (EMA % end to end) by naming regime"
         assert table.columns == ("method", "semantic", "abbreviated", "opaque", "opaque-anonymous")
-        assert table.rows == (("first", "50 / .87", "–", "–", "–"), ("second", "25 / .25", "–", "–", "–"))
+        assert table.rows == (
+            ("first", "50 / .87 (50)", "–", "–", "–"),
+            ("second", "25 / .25 (25)", "–", "–", "–"),
+        )
+
+    def test_objects_that_the_selection_misses_are_wrong_end_to_end(self):
+        # The first has Cup_1 and Desk_1 right; without Desk_1, one of four.
+        assert result_tables.main_table(tiny(missed=("/W/Desk_1",))).rows[0][1] == "50 / .87 (25)"
 
     def test_formats_a_perfect_run(self):
         right = {path: (cls, 1.0) for path, cls in GOLD.items()}
-        assert result_tables.main_table(tiny({("first", "opaque"): right})).rows[0][3] == "100 / 1.00"
+        assert result_tables.main_table(tiny({("first", "opaque"): right})).rows[0][3] == "100 / 1.00 (100)"
 
     def test_formats_repeats_as_mean_and_deviation(self):
         # EMA 50 and 25: mean 37.5, deviation 17.7; HF1 .867 and .25: mean .558, deviation .436.
         table = result_tables.main_table(tiny(repeats=(SECOND,)))
-        assert table.rows[0][1] == "38 ± 18 / .56 ± .44"
+        assert table.rows[0][1] == "38 ± 18 / .56 ± .44 (38 ± 18)"
         assert table.note == "Mean ± standard deviation of 2 repeats; intervals are those of the first repeat."
 
 
 def test_detail_table():
-    first, second = result_tables.detail_table(tiny()).rows
-    assert (first[0], first[1], first[2]) == ("first", "semantic", "50.0")
-    assert first[5] == "50.0"  # cup ½, bowl 0, desk 1
-    assert first[6] == "75.0"
+    table = result_tables.detail_table(tiny(missed=("/W/Desk_1",)))
+    first, second = (dict(zip(table.columns, row, strict=True)) for row in table.rows)
+    assert (first["method"], first["regime"], first["EMA %"]) == ("first", "semantic", "50.0")
+    assert first["EMA % end to end"] == "25.0"
+    assert first["EMA % by distinct name"] == "50.0"  # cup ½, bowl 0, desk 1
+    assert first["EMA % accept-also"] == "75.0"
     # Bins .9 (right), .8 (right), .6 (two wrong): (.1 + .2 + 2 × .6) / 4.
-    assert first[8] == "0.375"
+    assert first["calibration error"] == "0.375"
     # The two answers with confidence .6 enter together, so 80 % coverage takes all four.
-    assert first[9] == "50.0"
-    assert second[8] == "0.000"
-    assert second[9] == "–"
+    assert first["EMA % at 80 % coverage"] == "50.0"
+    assert second["calibration error"] == "0.000"
+    assert second["EMA % at 80 % coverage"] == "–"
 
 
 def test_intervals_contain_the_mean():

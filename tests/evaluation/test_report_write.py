@@ -159,7 +159,7 @@ class TestMarkdown:
     def test_tables_read_back(self, plain_report: Path):
         main = markdown_tables((plain_report / "report.md").read_text("utf-8"))[1]
         assert main[0] == ["method", "semantic", "abbreviated", "opaque", "opaque-anonymous"]
-        assert main[2] == ["first", "50 / .87", "–", "–", "–"]
+        assert main[2] == ["first", "50 / .87 (50)", "–", "–", "–"]
 
     def test_escapes_hostile_names(self, hostile_report: Path):
         text = (hostile_report / "report.md").read_text("utf-8")
@@ -180,7 +180,7 @@ class TestMarkdown:
 class TestLatex:
     def test_tables_read_back(self, plain_report: Path):
         text = (plain_report / "report.tex").read_text("utf-8")
-        assert "\nfirst & 50 / .87 & -- & -- & -- \\\\\n" in text
+        assert "\nfirst & 50 / .87 (50) & -- & -- & -- \\\\\n" in text
         assert text.count(r"\begin{tabular}") == text.count(r"\end{tabular}")
 
     def test_escapes_hostile_names(self, hostile_report: Path):

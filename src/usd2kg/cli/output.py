@@ -112,6 +112,10 @@ class Progress:
     def __exit__(
         self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
     ) -> None:
+        self.clear()
+
+    def clear(self) -> None:
+        """Erase the line."""
         if self._is_shown:
             sys.stderr.write(_CLEAR_LINE)
 

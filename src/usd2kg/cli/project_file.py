@@ -44,7 +44,9 @@ _OFFLINE_GROUNDERS = frozenset({"lexical", "dictionary", "embedding", "volume"})
 _IGNORES_THE_FILE = "no-project-file"
 _QUALIFIED = {
     "decisions": ("color-by", "ask"),
-    "ontology": ("color-by", "ask"),
+    "gold": ("study",),
+    "model": ("study",),
+    "ontology": ("color-by", "ask", "study"),
     "reviewer": ("decisions",),
 }
 """Option → the options that it qualifies. A command that has some of these refuses the one without any of them:

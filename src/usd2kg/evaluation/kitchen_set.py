@@ -1,4 +1,4 @@
-"""Check a user's download of Pixar's Kitchen Set, and plan the study's runs on it.
+"""Check a user's download of Pixar's Kitchen Set, and find the objects of the study in it.
 
 The licence forbids redistribution, so the scene is not shipped. Its layers are crate files of version 0.0.1, which
 OpenUSD reads up to about release 24.11: usd-core 26.11 rejects versions below 0.4.0, and prims from rejected layers
@@ -10,10 +10,10 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from usd2kg.errors import EvaluationError
-from usd2kg.evaluation.matrix import Matrix, SceneSpec
-from usd2kg.grounding import GROUNDERS, NamingRegime
+from usd2kg.evaluation.matrix import SceneSpec
+from usd2kg.scene import Scene, SceneObject
 
-__all__ = ["KitchenSet", "check_kitchen_set", "crate_version", "kitchen_matrix"]
+__all__ = ["KitchenSet", "check_kitchen_set", "crate_version", "kitchen_scene", "study_objects"]
 
 _ROOT_LAYERS = ("Kitchen_set.usd", "Kitchen_set.usda", "Kitchen_set.usdc")
 _LAYER_SUFFIXES = frozenset({".usd", ".usda", ".usdc"})
@@ -77,9 +77,16 @@ def _layers(folder: Path) -> Iterator[Path]:
     yield from (path for path in sorted(folder.rglob("*")) if path.suffix in _LAYER_SUFFIXES and path.is_file())
 
 
-def kitchen_matrix(found: KitchenSet, gold: Path, ontology: Path | None) -> Matrix:
-    """Return the study's matrix on the Kitchen Set: all grounders, all regimes and the ablation."""
-    scene = SceneSpec("Kitchen Set", found.root, gold, ontology, "labelled by the user", is_optional=False)
-    return Matrix(
-        "The study's matrix on the Kitchen Set", (scene,), GROUNDERS, tuple(NamingRegime), 1, has_ablation=True
-    )
+def study_objects(scene: Scene) -> tuple[SceneObject, ...]:
+    """Return the objects that come nearest to the study's list, which is not public.
+
+    The study lists object-level prims, without grouping prims, cameras, lights, sub-components and prims without
+    geometry. Our object selection leaves out the first three; this leaves out objects inside other objects, which are
+    their components, and objects without a box.
+    """
+    return tuple(obj for obj in scene.objects if obj.parent_path is None and obj.box is not None)
+
+
+def kitchen_scene(found: KitchenSet, gold: Path, ontology: Path | None) -> SceneSpec:
+    """Return the Kitchen Set with the user's gold labels as the scene of a matrix."""
+    return SceneSpec("Kitchen Set", found.root, gold, ontology, "labelled by the user", is_optional=False)

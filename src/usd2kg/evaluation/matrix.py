@@ -2,16 +2,20 @@
 
 import tomllib
 from collections.abc import Iterable, Iterator, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
 from usd2kg.errors import EvaluationError, GroundingError
 from usd2kg.grounding import GROUNDERS, NamingRegime, is_llm_name, parse_evidence
+from usd2kg.ontology import BUILT_IN_NAMES
 
-__all__ = ["OWN_ABLATION", "STUDY_ABLATION", "Cell", "Matrix", "SceneSpec", "read_matrix"]
+__all__ = ["OWN_ABLATION", "STUDY_ABLATION", "Ablation", "Cell", "Matrix", "SceneSpec", "read_matrix"]
 
-STUDY_ABLATION: Mapping[str, tuple[NamingRegime, str]] = {
+Ablation = Mapping[str, tuple[NamingRegime, str]]
+"""Condition → naming regime and comma-separated evidence groups."""
+
+STUDY_ABLATION: Ablation = {
     "geometry only": (NamingRegime.OPAQUE, "geometry"),
     "hierarchy only": (NamingRegime.OPAQUE, "hierarchy"),
     "geometry + position": (NamingRegime.OPAQUE, "geometry,position"),
@@ -21,7 +25,7 @@ STUDY_ABLATION: Mapping[str, tuple[NamingRegime, str]] = {
 }
 """The six conditions of the study, under opaque names: condition → (regime, evidence groups)."""
 
-OWN_ABLATION: Mapping[str, tuple[NamingRegime, str]] = {
+OWN_ABLATION: Ablation = {
     "name only": (NamingRegime.SEMANTIC, "name"),
     "name + hierarchy": (NamingRegime.SEMANTIC, "name,hierarchy"),
     "name + asset": (NamingRegime.SEMANTIC, "name,asset"),
@@ -31,7 +35,9 @@ OWN_ABLATION: Mapping[str, tuple[NamingRegime, str]] = {
 }
 """Further conditions, under authored names."""
 
-_KEYS = {"title", "regimes", "grounders", "repeats", "ablation", "scene"}
+_Condition = tuple[str, NamingRegime, frozenset[str] | None]
+"""Name, naming regime and evidence groups."""
+_KEYS = {"title", "regimes", "grounders", "repeats", "ablation", "cascade", "scene"}
 _SCENE_KEYS = {"name", "path", "gold", "ontology", "optional", "note"}
 
 
@@ -43,7 +49,7 @@ class SceneSpec:
     path: Path
     gold: Path
     ontology: Path | None
-    """None for the built-in home TBox."""
+    """A file, or the name of a built-in TBox; None for that of homes."""
     note: str
     """Printed next to the results: who labelled the scene, and whether it is tuning data."""
     is_optional: bool
@@ -52,7 +58,8 @@ class SceneSpec:
     @property
     def missing(self) -> Path | None:
         """The first file that does not exist; None if all exist."""
-        files = (self.path, self.gold, *((self.ontology,) if self.ontology else ()))
+        has_file = self.ontology is not None and str(self.ontology) not in BUILT_IN_NAMES
+        files = (self.path, self.gold, *((self.ontology,) if self.ontology is not None and has_file else ()))
         return next((file for file in files if not file.exists()), None)
 
 
@@ -67,6 +74,13 @@ class Cell:
     regime: NamingRegime
     evidence: frozenset[str] | None
     repeat: int
+    cascade: float | None = None
+    """Confidence of the lexical grounder below which `grounder`, a language model, is asked; None to ask it always."""
+
+    @property
+    def method(self) -> str:
+        """Name of the grounder in reports, with the threshold of a cascade."""
+        return self.grounder if self.cascade is None else f"{self.grounder}, cascade {self.cascade:g}"
 
 
 @dataclass(frozen=True)
@@ -78,19 +92,35 @@ class Matrix:
     grounders: tuple[str, ...]
     regimes: tuple[NamingRegime, ...]
     repeats: int
-    has_ablation: bool
+    ablation: Ablation = field(default_factory=dict)
+    """Conditions with less evidence; empty for none."""
+    ablated: tuple[str, ...] = ()
+    """The grounders that are run under these conditions."""
+    cascades: tuple[float, ...] = ()
+    """Thresholds at which each language model is also run behind the lexical grounder, under `regimes`."""
+
+    @property
+    def language_models(self) -> tuple[str, ...]:
+        """The grounders that ask a language model."""
+        return tuple(name for name in self.grounders if is_llm_name(name))
 
     def cells(self) -> Iterator[Cell]:
         """Yield the runs, scene by scene."""
-        conditions: list[tuple[str, NamingRegime, frozenset[str] | None]] = [(r.value, r, None) for r in self.regimes]
-        if self.has_ablation:
-            ablations = {**STUDY_ABLATION, **OWN_ABLATION}
-            conditions += [(name, regime, parse_evidence(groups)) for name, (regime, groups) in ablations.items()]
+        named = [(regime.value, regime, None) for regime in self.regimes]
+        ablated = [(name, regime, parse_evidence(groups)) for name, (regime, groups) in self.ablation.items()]
         for scene in self.scenes:
             for grounder in self.grounders:
-                for condition, regime, evidence in conditions:
-                    for repeat in range(1, self.repeats + 1):
-                        yield Cell(scene, grounder, condition, regime, evidence, repeat)
+                yield from self._repeat(scene, grounder, [*named, *(ablated if grounder in self.ablated else ())])
+            for model in self.language_models:
+                for threshold in self.cascades:
+                    yield from self._repeat(scene, model, named, threshold)
+
+    def _repeat(
+        self, scene: SceneSpec, grounder: str, conditions: Iterable[_Condition], cascade: float | None = None
+    ) -> Iterator[Cell]:
+        for name, regime, evidence in conditions:
+            for repeat in range(1, self.repeats + 1):
+                yield Cell(scene, grounder, name, regime, evidence, repeat, cascade)
 
 
 def read_matrix(path: Path) -> Matrix:
@@ -109,14 +139,26 @@ def read_matrix(path: Path) -> Matrix:
     scenes = tuple(_read_scene_spec(path, spec) for spec in data.get("scene", ()))
     if not scenes:
         raise EvaluationError(f"{path}: has no scene; expected at least one [[scene]] with path and gold")
+    grounders = _read_grounders(path, data.get("grounders", GROUNDERS))
     return Matrix(
         title=str(data.get("title", path.stem)),
         scenes=scenes,
-        grounders=_read_grounders(path, data.get("grounders", GROUNDERS)),
+        grounders=grounders,
         regimes=_read_regimes(path, data.get("regimes", tuple(NamingRegime))),
         repeats=int(data.get("repeats", 1)),
-        has_ablation=bool(data.get("ablation", False)),
+        ablation={**STUDY_ABLATION, **OWN_ABLATION} if data.get("ablation", False) else {},
+        ablated=grounders,
+        cascades=_read_cascades(path, data.get("cascade", ()), grounders),
     )
+
+
+def _read_cascades(path: Path, thresholds: Any, grounders: Iterable[str]) -> tuple[float, ...]:
+    is_list = isinstance(thresholds, list | tuple)
+    if not is_list or not all(type(number) in (int, float) and 0 <= number <= 1 for number in thresholds):
+        raise EvaluationError(f"{path}: cascade is {thresholds!r}; expected a list of confidences from 0 to 1")
+    if thresholds and not any(map(is_llm_name, grounders)):
+        raise EvaluationError(f"{path}: cascade needs a language model; expected a grounder like llm-B:MODEL")
+    return tuple(dict.fromkeys(map(float, thresholds)))
 
 
 def _read_grounders(path: Path, names: Iterable[str]) -> tuple[str, ...]:

@@ -1,19 +1,22 @@
 """Evaluation of one grounder on one scene, under one naming regime and set of evidence groups."""
 
 import time
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
 from usd2kg.evaluation.gold import GoldLabel
 from usd2kg.evaluation.metrics.selection_scores import SelectionScore, score_selection
-from usd2kg.evaluation.score import Score, join_scores
+from usd2kg.evaluation.score import Score, drop_missed, join_scores
 from usd2kg.evaluation.summary import Summary, summarize_scores
 from usd2kg.grounding import ABBREVIATED_LENGTH, Decision, Grounder, Grounding, NamingRegime, ground
 from usd2kg.ontology import ClassIRI, TBox
 from usd2kg.scene import ASKED_FOR, Scene
 
 __all__ = ["Evaluation", "evaluate", "evaluation_json", "score_grounding", "score_scene_selection"]
+
+_END_TO_END = ("answered", "ema", "ema_interval", "ema_name_interval", "ema_also", "hf1", "hf1_interval")
+"""The figures of the end-to-end score in JSON."""
 
 
 @dataclass(frozen=True)
@@ -23,6 +26,9 @@ class Evaluation:
     grounding: Grounding
     scores: tuple[Score, ...]
     summary: Summary
+    """Of all labelled objects, whether or not the object selection finds them."""
+    end_to_end: Summary
+    """The same if objects that the object selection misses count as wrong."""
     seconds: float
     """Wall time of grounding the labelled objects, without reading the scene."""
 
@@ -54,13 +60,26 @@ def evaluate(
         decisions=decisions,
         abbreviated_length=abbreviated_length,
     )
-    return score_grounding(grounding, gold, tbox, time.perf_counter() - start)
+    seconds = time.perf_counter() - start
+    return score_grounding(grounding, gold, tbox, seconds, missed=score_scene_selection(scene, gold).missed)
 
 
-def score_grounding(grounding: Grounding, gold: Sequence[GoldLabel], tbox: TBox, seconds: float) -> Evaluation:
-    """Return the evaluation of an existing grounding; `seconds` is the time it took."""
+def score_grounding(
+    grounding: Grounding, gold: Sequence[GoldLabel], tbox: TBox, seconds: float, *, missed: Collection[str] = ()
+) -> Evaluation:
+    """Return the evaluation of an existing grounding.
+
+    Args:
+        grounding: the answers.
+        gold: the labels.
+        tbox: the classes.
+        seconds: the time that the grounding took.
+        missed: prim paths of labelled objects that the object selection misses, see `score_scene_selection`.
+    """
     scores = join_scores(gold, grounding)
-    return Evaluation(grounding, scores, summarize_scores(scores, tbox), seconds)
+    summary = summarize_scores(scores, tbox)
+    end_to_end = summarize_scores(drop_missed(scores, frozenset(missed)), tbox) if missed else summary
+    return Evaluation(grounding, scores, summary, end_to_end, seconds)
 
 
 def score_scene_selection(scene: Scene, gold: Sequence[GoldLabel]) -> SelectionScore:
@@ -74,6 +93,7 @@ def evaluation_json(evaluation: Evaluation, selection: SelectionScore | None = N
     grounding = evaluation.grounding
     data: dict[str, Any] = {
         **evaluation.summary.as_json(),
+        "end_to_end": {key: evaluation.end_to_end.as_json()[key] for key in _END_TO_END},
         "seconds": evaluation.seconds,
         "scene": grounding.scene,
         "scene_hash": grounding.scene_hash,

@@ -8,15 +8,22 @@ from dataclasses import dataclass
 from functools import lru_cache
 from importlib.resources import files
 from pathlib import Path
+from typing import TYPE_CHECKING, NamedTuple
 
 from usd2kg.evaluation.gold import GoldLabel, read_gold
 from usd2kg.evaluation.matrix import Cell, Matrix, SceneSpec
+from usd2kg.evaluation.matrix_grounders import MatrixGrounders, open_grounders
 from usd2kg.evaluation.metrics.selection_scores import SelectionScore
+from usd2kg.evaluation.model_cost import ModelCost
+from usd2kg.evaluation.recording import restore_recording, write_recording
 from usd2kg.evaluation.run import Evaluation, evaluate, score_grounding, score_scene_selection
 from usd2kg.files import write_whole
-from usd2kg.grounding import Grounder, Status, format_mapping, make_grounder, read_grounding
+from usd2kg.grounding import Grounder, Status, format_mapping, read_grounding
 from usd2kg.ontology import TBox, load_home_tbox, load_tbox
 from usd2kg.scene import Scene, read_scene
+
+if TYPE_CHECKING:
+    from usd2kg.grounding.llm.factory import LLMSettings
 
 __all__ = ["CellResult", "SceneResult", "run_matrix"]
 
@@ -31,6 +38,8 @@ class CellResult:
     evaluation: Evaluation
     was_stored: bool
     """Whether the answers were read from a file, not computed."""
+    cost: ModelCost | None = None
+    """Tokens and dollars of a language model; None if the run asks none."""
 
     @property
     def failures(self) -> tuple[str, ...]:
@@ -51,89 +60,139 @@ class SceneResult:
 
 
 def run_matrix(
-    matrix: Matrix, folder: Path, *, refresh: bool = False, progress: Callable[[CellResult], None] | None = None
+    matrix: Matrix,
+    folder: Path,
+    *,
+    settings: "LLMSettings | None" = None,
+    refresh: bool = False,
+    progress: Callable[[CellResult], None] | None = None,
+    model_progress: Callable[[int, int], None] | None = None,
 ) -> list[SceneResult]:
     """Return the results of all runs, scene by scene.
 
     The answers of each run are stored in `folder/runs` when the run ends, unless the grounder failed on an object: such
-    a run is repeated the next time. Runs with stored answers are only scored.
+    a run is repeated the next time. Runs with stored answers are only scored. The completions of language models are
+    recorded in `folder/recording.jsonl.gz`, and those of an earlier recording there are reused.
 
     Args:
         matrix: the runs. Optional scenes with missing files are skipped.
         folder: where answers are stored.
+        settings: of the language models, except for model and strategy; None for the defaults. The budget is that of
+            all runs together.
         refresh: ignore stored answers.
         progress: called after each run.
+        model_progress: called with the number of objects that a language model is done with and the total of a run.
+
+    Raises:
+        Usd2kgError: a scene, its gold labels or a model cannot be opened.
     """
     (folder / "runs").mkdir(parents=True, exist_ok=True)
-    grounders = {name: make_grounder(name) for name in matrix.grounders}
     by_scene: dict[str, list[Cell]] = {}
     for cell in matrix.cells():
         by_scene.setdefault(cell.scene.name, []).append(cell)
+    if matrix.language_models:
+        restore_recording(folder, settings)
     results = []
-    for cells in by_scene.values():
-        spec = cells[0].scene
-        if spec.missing is not None:
-            logger.warning("scene %s skipped: %s does not exist", spec.name, spec.missing)
-            continue
-        results.append(_run_scene(spec, cells, grounders, folder, refresh, progress))
+    with open_grounders(matrix, settings, model_progress) as grounders:
+        runner = _Runner(grounders, folder, refresh, progress)
+        for cells in by_scene.values():
+            spec = cells[0].scene
+            if spec.missing is not None:
+                logger.warning("scene %s skipped: %s does not exist", spec.name, spec.missing)
+                continue
+            results.append(runner.run_scene(spec, cells))
+    if keys := {key for result in results for done in result.cells if done.cost for key in done.cost.keys}:
+        write_recording(folder, settings, keys)
     return results
 
 
-def _run_scene(
-    spec: SceneSpec,
-    cells: list[Cell],
-    grounders: dict[str, Grounder],
-    folder: Path,
-    refresh: bool,
-    progress: Callable[[CellResult], None] | None,
-) -> SceneResult:
-    tbox = load_tbox(spec.ontology) if spec.ontology else load_home_tbox()
-    gold = read_gold(spec.gold, tbox)
-    scene = read_scene(spec.path, paths=[label.prim_path for label in gold])
-    done = []
-    for cell in cells:
-        result = _run_cell(cell, scene, gold, tbox, grounders[cell.grounder], folder, refresh)
-        done.append(result)
-        if progress is not None:
-            progress(result)
-    return SceneResult(spec, scene, tbox, gold, score_scene_selection(scene, gold), tuple(done))
+class _Inputs(NamedTuple):
+    """What the runs on a scene have in common."""
+
+    scene: Scene
+    gold: tuple[GoldLabel, ...]
+    tbox: TBox
+    missed: tuple[str, ...]
+    """Labelled prims that the object selection misses."""
 
 
-def _run_cell(
-    cell: Cell,
-    scene: Scene,
-    gold: tuple[GoldLabel, ...],
-    tbox: TBox,
-    grounder: Grounder,
-    folder: Path,
-    refresh: bool,
-) -> CellResult:
-    store = folder / "runs" / f"{_key(cell, scene, gold, tbox, grounder)}.json"
-    timing = store.with_suffix(".seconds")
-    if store.exists() and timing.exists() and not refresh:
-        evaluation = score_grounding(read_grounding(store), gold, tbox, float(timing.read_text("utf-8")))
-        return CellResult(cell, evaluation, was_stored=True)
-    evaluation = evaluate(scene, gold, tbox, grounder, regime=cell.regime, evidence=cell.evidence)
-    result = CellResult(cell, evaluation, was_stored=False)
-    if result.failures:
+@dataclass(frozen=True)
+class _Runner:
+    """Runs cells, or reads their stored answers."""
+
+    grounders: MatrixGrounders
+    folder: Path
+    refresh: bool
+    progress: Callable[[CellResult], None] | None
+
+    def run_scene(self, spec: SceneSpec, cells: list[Cell]) -> SceneResult:
+        tbox = load_tbox(spec.ontology) if spec.ontology else load_home_tbox()
+        gold = read_gold(spec.gold, tbox)
+        scene = read_scene(spec.path, paths=[label.prim_path for label in gold])
+        selection = score_scene_selection(scene, gold)
+        inputs = _Inputs(scene, gold, tbox, selection.missed)
+        done = []
+        for cell in cells:
+            result = self._run_cell(cell, inputs)
+            done.append(result)
+            if self.progress is not None:
+                self.progress(result)
+        return SceneResult(spec, scene, tbox, gold, selection, tuple(done))
+
+    def _run_cell(self, cell: Cell, inputs: _Inputs) -> CellResult:
+        grounder, model = self.grounders.grounder(cell), self.grounders.model(cell)
+        store = self.folder / "runs" / f"{_key(cell, inputs, grounder, self.grounders.price)}.json"
+        if not self.refresh and (stored := _read_stored(cell, inputs, store)) is not None:
+            return stored
+        if model is not None:
+            model.restart_report()
+        evaluation = evaluate(
+            inputs.scene, inputs.gold, inputs.tbox, grounder, regime=cell.regime, evidence=cell.evidence
+        )
+        if model is not None and model.report.is_interrupted:
+            # The grounder ends an interrupted run with failures; the runs that follow must not start.
+            raise KeyboardInterrupt
+        cost = ModelCost.from_report(model.report) if model is not None else None
+        result = CellResult(cell, evaluation, was_stored=False, cost=cost)
+        if not result.failures:
+            _store(result, inputs.tbox, store)
         return result
-    write_whole(timing, repr(evaluation.seconds).encode())
-    write_whole(store, format_mapping(evaluation.grounding, tbox, "json").encode())
-    return result
 
 
-def _key(cell: Cell, scene: Scene, gold: tuple[GoldLabel, ...], tbox: TBox, grounder: Grounder) -> str:
-    """Return a file name: a hash of everything that the answers depend on."""
+def _cost_file(store: Path) -> Path:
+    return store.with_suffix(".cost.json")
+
+
+def _read_stored(cell: Cell, inputs: _Inputs, store: Path) -> CellResult | None:
+    """Return the result whose answers are in a file; None if there is none."""
+    if not store.exists() or not _cost_file(store).exists():
+        return None
+    data = json.loads(_cost_file(store).read_text("utf-8"))
+    grounding = read_grounding(store)
+    evaluation = score_grounding(grounding, inputs.gold, inputs.tbox, data["seconds"], missed=inputs.missed)
+    cost = ModelCost.from_json(data["model"]) if data["model"] is not None else None
+    return CellResult(cell, evaluation, was_stored=True, cost=cost)
+
+
+def _store(result: CellResult, tbox: TBox, store: Path) -> None:
+    cost = {"seconds": result.evaluation.seconds, "model": result.cost.as_json() if result.cost else None}
+    write_whole(_cost_file(store), json.dumps(cost, indent=1).encode())
+    write_whole(store, format_mapping(result.evaluation.grounding, tbox, "json").encode())
+
+
+def _key(cell: Cell, inputs: _Inputs, grounder: Grounder, price: str) -> str:
+    """Return a file name: a hash of everything that the answers and their cost depend on."""
     evidence = ",".join(sorted(cell.evidence)) if cell.evidence is not None else "all"
     parts = [
-        scene.content_hash,
-        tbox.content_hash,
-        json.dumps([label.prim_path for label in gold]),
+        inputs.scene.content_hash,
+        inputs.tbox.content_hash,
+        json.dumps([label.prim_path for label in inputs.gold]),
         grounder.name,
         json.dumps(dict(grounder.settings), sort_keys=True),
         cell.regime.value,
         evidence,
         str(cell.repeat),
+        price,
         _code_digest(),
     ]
     return hashlib.sha256("\n".join(parts).encode()).hexdigest()[:32]

@@ -1,14 +1,14 @@
 """Scores: the gold class of each object and the answer of the grounder."""
 
-from collections.abc import Iterable
-from dataclasses import dataclass
+from collections.abc import Collection, Iterable
+from dataclasses import dataclass, replace
 
 from usd2kg.evaluation.gold import GoldLabel
 from usd2kg.grounding import Grounding, Status
 from usd2kg.ontology import ClassIRI
 from usd2kg.words import words_of
 
-__all__ = ["Score", "distinct_name", "join_scores"]
+__all__ = ["Score", "distinct_name", "drop_missed", "join_scores"]
 
 
 @dataclass(frozen=True, slots=True)
@@ -51,6 +51,16 @@ def distinct_name(name: str) -> str:
 def join_scores(gold: Iterable[GoldLabel], grounding: Grounding) -> tuple[Score, ...]:
     """Return one score per gold label, in order; a prim without a prediction has a score without an answer."""
     return tuple(_score(label, grounding) for label in gold)
+
+
+def drop_missed(scores: Iterable[Score], missed: Collection[str]) -> tuple[Score, ...]:
+    """Return the scores without the answers for objects that the object selection missed, given by prim path."""
+    return tuple(
+        replace(score, answer=None, confidence=None, status=Status.MISSING, explanation="not selected as an object")
+        if score.id in missed
+        else score
+        for score in scores
+    )
 
 
 def _score(label: GoldLabel, grounding: Grounding) -> Score:

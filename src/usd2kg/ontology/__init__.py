@@ -10,12 +10,13 @@ if TYPE_CHECKING:
     from usd2kg.ontology.fetch import fetch_ontology
     from usd2kg.ontology.known_ontologies import KnownOntology, read_registry
     from usd2kg.ontology.linearize import linearize_flat, linearize_tree
-    from usd2kg.ontology.load import PLACES_IRI, load_home_tbox, load_places_tbox, load_tbox
+    from usd2kg.ontology.load import BUILT_IN_NAMES, PLACES_IRI, load_home_tbox, load_places_tbox, load_tbox
     from usd2kg.ontology.model import ClassIRI, OntologyClass, OntologyNote, TBox, local_name
     from usd2kg.ontology.owl_write import write_functional_syntax
     from usd2kg.ontology.prefixes import compact_iri, expand_curie
 
 __all__ = [
+    "BUILT_IN_NAMES",
     "LABELS",
     "PLACES_IRI",
     "ClassIRI",
@@ -42,6 +43,7 @@ __all__ = [
 __getattr__ = lazy_names(
     __name__,
     {
+        "BUILT_IN_NAMES": "load",
         "LABELS": "class_axioms",
         "PLACES_IRI": "load",
         "ClassIRI": "model",

@@ -20,7 +20,16 @@ from usd2kg.ontology.scope import default_scope, isolated_classes, nearest_paren
 from usd2kg.ontology.wikidata import EQUIVALENT_CLASS, item_in, pick_items
 from usd2kg.tracing import traced
 
-__all__ = ["BUILT_IN", "HOME", "PLACES", "PLACES_IRI", "load_home_tbox", "load_places_tbox", "load_tbox"]
+__all__ = [
+    "BUILT_IN",
+    "BUILT_IN_NAMES",
+    "HOME",
+    "PLACES",
+    "PLACES_IRI",
+    "load_home_tbox",
+    "load_places_tbox",
+    "load_tbox",
+]
 
 HOME = "built-in home TBox"
 PLACES = "built-in places TBox"
@@ -71,6 +80,8 @@ def load_places_tbox(*, roots: Iterable[str] | None = None) -> TBox:
 
 
 _LOADERS = {"home": load_home_tbox, "places": load_places_tbox}
+BUILT_IN_NAMES = frozenset(_LOADERS)
+"""Names that `load_tbox` takes for built-in TBoxes."""
 
 
 @lru_cache(maxsize=4)

@@ -2,7 +2,7 @@
 
 import typer
 
-from usd2kg.cli.evaluate import gold, matrix, run, stored
+from usd2kg.cli.evaluate import gold, matrix, run, stored, study
 
 __all__ = ["app"]
 
@@ -13,4 +13,4 @@ app.command("reproduce")(matrix.reproduce_command)
 app.command("compare")(stored.compare_command)
 app.command("annotate")(gold.annotate_command)
 app.command("agreement")(gold.agreement_command)
-app.command("kitchen-set")(matrix.kitchen_set_command)
+app.command("kitchen-set")(study.kitchen_set_command)

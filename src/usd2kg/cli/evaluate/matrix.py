@@ -1,27 +1,36 @@
-"""usd2kg eval reproduce and eval kitchen-set: evaluation matrices with reports."""
+"""usd2kg eval reproduce: evaluation matrices, the study's among them, with reports."""
 
 from collections.abc import Callable, Sequence
+from dataclasses import replace
 from itertools import count
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
 from typer import Argument, Option
 
-from usd2kg.cli.options.common import OntologyFile, ReportFolder
-from usd2kg.cli.output import count_noun, emit, notify
+from usd2kg.cli.evaluate.study import StudyOptions, plan_study_matrix, study_text
+from usd2kg.cli.options.bundles import expand_bundles
+from usd2kg.cli.options.common import ReportFolder
+from usd2kg.cli.options.model import ObjectsPerPrompt, RequestLimits, Thinking
+from usd2kg.cli.output import Progress, count_noun, emit, notify
 from usd2kg.errors import EvaluationError
 
 if TYPE_CHECKING:
-    from usd2kg.evaluation import CellResult
+    from usd2kg.evaluation import CellResult, Matrix
+    from usd2kg.grounding.llm.factory import LLMSettings
 
-__all__ = ["kitchen_set_command", "reproduce_command"]
-
-_OBJECTS_IN_STUDY = 125
-"""Objects of the Kitchen Set in the study."""
+__all__ = ["reproduce_command"]
 
 
+@expand_bundles
 def reproduce_command(
-    matrix: Annotated[Path, Argument(metavar="MATRIX", help="TOML file; see docs/evaluation.md.")],
+    study: StudyOptions,
+    limits: RequestLimits,
+    matrix: Annotated[
+        Path | None, Argument(metavar="MATRIX", help="TOML file, see docs/evaluation.md; none with --study.")
+    ] = None,
+    objects_per_prompt: ObjectsPerPrompt = None,
+    thinking: Thinking = False,
     output: ReportFolder = Path("results"),
     refresh: Annotated[
         bool, Option("--refresh", help="Compute every result again; default: use stored results.")
@@ -29,22 +38,67 @@ def reproduce_command(
 ) -> None:
     """Evaluate scenes × grounders × regimes × ablations and write tables, plots and a report.
 
-    Results are stored, so an interrupted run resumes. Results without all answers of a model are computed again.
+    Results and completions are stored, so an interrupted run resumes. Results without all answers of a model are
+    computed again. --study runs the matrix of the study on the demo kitchen or another scene, and prints published and
+    measured figures side by side.
     """
-    from usd2kg import evaluation  # noqa: PLC0415
+    from usd2kg import evaluation  # noqa: PLC0415 - loads OpenUSD, too slow for --help
     from usd2kg.evaluation.report import write_report  # noqa: PLC0415
 
-    plan = evaluation.read_matrix(matrix)
+    plan = _plan(matrix, study)
+    if not plan.language_models:
+        limits.check_without_model(f"name one with {'--model MODEL' if study.study else 'a grounder llm-B:MODEL'}")
     for scene in plan.scenes:
         if scene.missing is not None:
             notify(f"{scene.name} is left out: {scene.missing} does not exist")
     total = sum(1 for cell in plan.cells() if cell.scene.missing is None)
-    results = evaluation.run_matrix(plan, output, refresh=refresh, progress=_progress(total))
+    with Progress() as progress:
+        results = evaluation.run_matrix(
+            plan,
+            output,
+            settings=_settings(limits, study, objects_per_prompt, thinking) if plan.language_models else None,
+            refresh=refresh,
+            progress=_report(total, progress),
+            model_progress=progress.update,
+        )
     if not results:
         raise EvaluationError(f"{matrix}: none of its scenes exists; correct the paths")
+    if study.study:
+        emit(study_text(results))
     for path in write_report(results, plan.title, output):
         emit(f"{path}\n")
     _check_complete([cell for result in results for cell in result.cells])
+
+
+def _plan(matrix: Path | None, study: StudyOptions) -> "Matrix":
+    """Return the matrix of a file, or that of the study.
+
+    Raises:
+        EvaluationError: both or neither are asked for, or the matrix is invalid.
+    """
+    from usd2kg.evaluation import read_matrix  # noqa: PLC0415
+
+    if study.study:
+        if matrix is not None:
+            raise EvaluationError(f"{matrix}: --study has a matrix of its own; leave out one of the two")
+        return plan_study_matrix(study)
+    study.check_unused()
+    if matrix is None:
+        raise EvaluationError("no matrix is named; expected MATRIX, a TOML file, or --study")
+    return read_matrix(matrix)
+
+
+def _settings(
+    limits: RequestLimits, study: StudyOptions, objects_per_prompt: int | None, thinking: bool
+) -> "LLMSettings":
+    """Return the settings of all language models of a matrix."""
+    return replace(
+        limits.settings(""),
+        objects_per_prompt=objects_per_prompt,
+        is_thinking=thinking,
+        # The study asks about each prim.
+        is_each_object=study.study,
+    )
 
 
 def _check_complete(cells: "Sequence[CellResult]") -> None:
@@ -62,7 +116,7 @@ def _check_complete(cells: "Sequence[CellResult]") -> None:
         )
 
 
-def _progress(total: int) -> "Callable[[CellResult], None]":
+def _report(total: int, progress: Progress) -> "Callable[[CellResult], None]":
     """Return a function that prints a result with its number of `total`."""
     numbers = count(1)
 
@@ -71,37 +125,9 @@ def _progress(total: int) -> "Callable[[CellResult], None]":
         stored = " (stored)" if result.was_stored else ""
         figures = f"EMA {summary.ema:.1f} HF1 {summary.hf1:.2f}"
         failed = f" ({count_noun(len(result.failures), 'object')} failed)" if result.failures else ""
+        progress.clear()
         notify(
-            f"[{next(numbers)}/{total}] {cell.scene.name}, {cell.grounder}, {cell.condition}: {figures}{stored}{failed}"
+            f"[{next(numbers)}/{total}] {cell.scene.name}, {cell.method}, {cell.condition}: {figures}{stored}{failed}"
         )
 
     return report
-
-
-def kitchen_set_command(
-    folder: Annotated[Path, Argument(metavar="PATH", help="Folder of the unpacked Kitchen Set.")],
-    gold: Annotated[
-        Path | None, Option("--gold", help="Gold labels; default: none, only check the scene and list objects.")
-    ] = None,
-    ontology: OntologyFile = None,
-    output: ReportFolder = Path("kitchen_set_results"),
-) -> None:
-    """Check a download of Pixar's Kitchen Set, and evaluate the study's matrix on it with your gold labels."""
-    from usd2kg.evaluation import run_matrix  # noqa: PLC0415
-    from usd2kg.evaluation.kitchen_set import check_kitchen_set, kitchen_matrix  # noqa: PLC0415
-    from usd2kg.evaluation.report import write_report  # noqa: PLC0415
-    from usd2kg.scene import read_scene  # noqa: PLC0415
-
-    found = check_kitchen_set(folder)
-    scene = read_scene(found.root)
-    counts = (
-        f"{found.layer_count} layers, {count_noun(len(scene.objects), 'object')} (the study has {_OBJECTS_IN_STUDY})"
-    )
-    notify(f"{found.root}: {counts}")
-    if gold is None:
-        emit("".join(f"{obj.prim_path}\n" for obj in scene.objects))
-        notify("label these objects with usd2kg eval annotate, then run this command with --gold")
-        return
-    plan = kitchen_matrix(found, gold, ontology)
-    for path in write_report(run_matrix(plan, output), plan.title, output):
-        emit(f"{path}\n")

@@ -79,7 +79,7 @@ def run_command(
 
 def _evaluation_text(result: "Evaluation", selection: "SelectionScore", tbox: "TBox") -> str:
     """Return the figures of an evaluation and its wrong answers as tables."""
-    s = result.summary
+    s, e = result.summary, result.end_to_end
     rows = [
         ("objects (distinct names)", f"{s.n} ({s.names})", None),
         ("answered", str(s.answered), None),
@@ -87,7 +87,10 @@ def _evaluation_text(result: "Evaluation", selection: "SelectionScore", tbox: "T
         ("  copies drawn together", None, _interval_text(s.ema_name_interval)),
         ("  each distinct name once %", f"{s.ema_by_name:.1f}", _interval_text(s.ema_by_name_interval)),
         ("  accepting a second label %", f"{s.ema_also:.1f}", _interval_text(s.ema_also_interval)),
+        ("exact match end to end %", f"{e.ema:.1f}", _interval_text(e.ema_interval)),
+        ("  copies drawn together", None, _interval_text(e.ema_name_interval)),
         ("hierarchical F1 (HF1)", f"{s.hf1:.3f}", f"{s.hf1_interval.lower:.3f} to {s.hf1_interval.upper:.3f}"),
+        ("  end to end", f"{e.hf1:.3f}", f"{e.hf1_interval.lower:.3f} to {e.hf1_interval.upper:.3f}"),
         ("calibration error", format_optional(s.calibration_error, ".3f"), None),
         ("EMA of the most confident 80 %", format_optional(s.accuracy_at_80, ".1f"), None),
         ("  accepting a second label %", format_optional(s.accepted_at_80, ".1f"), None),

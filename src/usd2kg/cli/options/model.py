@@ -13,7 +13,16 @@ from usd2kg.errors import GroundingError
 if TYPE_CHECKING:
     from usd2kg.grounding.llm.factory import LLMSettings
 
-__all__ = ["MODEL_NAMES", "CompletionCacheFile", "ModelName", "ModelOptions", "RequestOptions"]
+__all__ = [
+    "MODEL_NAMES",
+    "CompletionCacheFile",
+    "ModelName",
+    "ModelOptions",
+    "ObjectsPerPrompt",
+    "RequestLimits",
+    "RequestOptions",
+    "Thinking",
+]
 
 MODEL_NAMES = (
     "google:NAME, anthropic:NAME, openai:NAME, openai:NAME@URL for a server with OpenAI's protocol, or gguf:FILE for "
@@ -28,11 +37,20 @@ CompletionCacheFile = Annotated[
     Path | None,
     Option("--completions", help="Cache of completions; default: $USD2KG_CACHE, else in the user's cache folder."),
 ]
+ObjectsPerPrompt = Annotated[
+    int | None,
+    Option(
+        "--objects-per-prompt",
+        min=1,
+        help="Objects, or concepts, that one prompt asks about; default: 1, or 40 for llm-concept.",
+    ),
+]
+Thinking = Annotated[bool, Option("--thinking", help="Turn on the model's own reasoning.")]
 
 
 @dataclass(frozen=True)
-class RequestOptions(OptionBundle):
-    """Limits and cache of the requests to a language model."""
+class RequestLimits(OptionBundle):
+    """Limits, cache and replay of the requests to a language model."""
 
     token_budget: Annotated[
         int | None, Option("--token-budget", min=1, help="Tokens after which no request is sent; default: no limit.")
@@ -55,12 +73,8 @@ class RequestOptions(OptionBundle):
         int | None, Option("--requests-per-minute", min=1, help="Requests per minute; default: no limit.")
     ] = None
     completions: CompletionCacheFile = None
-    refresh: Annotated[bool, Option("--refresh", help="Request new completions instead of using cached ones.")] = False
     replay: Annotated[
         bool, Option("--replay", help="Use cached completions only; needs no key and sends no request.")
-    ] = False
-    dry_run: Annotated[
-        bool, Option("--dry-run", help="Print the prompts and their estimated tokens; send no request.")
     ] = False
 
     @property
@@ -80,7 +94,6 @@ class RequestOptions(OptionBundle):
             concurrency=self.concurrency,
             requests_per_minute=self.requests_per_minute,
             completions=self.completions,
-            is_refreshed=self.refresh,
             is_replayed=self.replay,
         )
 
@@ -91,7 +104,6 @@ class RequestOptions(OptionBundle):
             GroundingError: one is given.
         """
         given = {
-            "--dry-run": self.dry_run,
             "--budget": self.budget is not None,
             "--price": self.price is not None,
             "--requests-per-minute": self.requests_per_minute is not None,
@@ -102,21 +114,38 @@ class RequestOptions(OptionBundle):
 
 
 @dataclass(frozen=True)
+class RequestOptions(RequestLimits):
+    """The requests of a command that asks about one input."""
+
+    refresh: Annotated[bool, Option("--refresh", help="Request new completions instead of using cached ones.")] = False
+    dry_run: Annotated[
+        bool, Option("--dry-run", help="Print the prompts and their estimated tokens; send no request.")
+    ] = False
+
+    def settings(self, model: str) -> "LLMSettings":
+        """Return the settings of a model string, with defaults for prompts and sampling."""
+        return replace(super().settings(model), is_refreshed=self.refresh)
+
+    def check_without_model(self, how_to_name_one: str = "name one with --model MODEL") -> None:
+        """Check that no option is given that has an effect on language models only.
+
+        Raises:
+            GroundingError: one is given.
+        """
+        if self.dry_run:
+            raise GroundingError(f"--dry-run needs a language model; {how_to_name_one}")
+        super().check_without_model(how_to_name_one)
+
+
+@dataclass(frozen=True)
 class ModelOptions(OptionBundle):
     """Prompts and sampling of a language model, and its requests."""
 
-    objects_per_prompt: Annotated[
-        int | None,
-        Option(
-            "--objects-per-prompt",
-            min=1,
-            help="Objects, or concepts, that one prompt asks about; default: 1, or 40 for llm-concept.",
-        ),
-    ] = None
+    objects_per_prompt: ObjectsPerPrompt = None
     class_tree: Annotated[
         bool, Option("--class-tree", help="List the classes in the prompt as a tree instead of alphabetically.")
     ] = False
-    thinking: Annotated[bool, Option("--thinking", help="Turn on the model's own reasoning.")] = False
+    thinking: Thinking = False
     each_object: Annotated[
         bool, Option("--each-object", help="Ask about each object; default: once for objects with the same evidence.")
     ] = False

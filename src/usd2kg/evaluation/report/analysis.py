@@ -23,6 +23,7 @@ __all__ = [
     "ema_by_name_quality",
     "find_size_distinctive",
     "find_unanimous",
+    "group_cascades",
     "group_repeats",
     "has_geometry_runs",
     "head_noun",
@@ -40,16 +41,26 @@ _VOLUME = "volume"
 
 
 def group_repeats(result: SceneResult) -> Mapping[tuple[str, str], tuple[CellResult, ...]]:
-    """Return (method, condition) → its repeats, in the order of the matrix."""
+    """Return (method, condition) → its repeats, in the order of the matrix, without cascades."""
+    return _group(done for done in result.cells if done.cell.cascade is None)
+
+
+def group_cascades(result: SceneResult) -> Mapping[tuple[str, str], tuple[CellResult, ...]]:
+    """Return (language model, condition) → first repeat at each threshold of its cascades, in ascending order."""
+    cascades = [done for done in result.cells if done.cell.cascade is not None and done.cell.repeat == 1]
+    return _group(sorted(cascades, key=lambda done: done.cell.cascade or 0.0))
+
+
+def _group(results: Iterable[CellResult]) -> Mapping[tuple[str, str], tuple[CellResult, ...]]:
     found: dict[tuple[str, str], list[CellResult]] = {}
-    for done in result.cells:
+    for done in results:
         found.setdefault((done.cell.grounder, done.cell.condition), []).append(done)
     return {key: tuple(cells) for key, cells in found.items()}
 
 
 def list_methods(result: SceneResult) -> tuple[str, ...]:
-    """Return the grounders that were run, in the order of the matrix."""
-    return tuple(dict.fromkeys(done.cell.grounder for done in result.cells))
+    """Return the grounders that were run, in the order of the matrix, without cascades."""
+    return tuple(dict.fromkeys(done.cell.grounder for done in result.cells if done.cell.cascade is None))
 
 
 def scores_by_method(result: SceneResult, condition: str) -> Mapping[str, tuple[Score, ...]]:

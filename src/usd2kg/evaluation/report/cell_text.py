@@ -5,6 +5,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from usd2kg.evaluation.metrics.intervals import Interval, mean_and_deviation
+from usd2kg.evaluation.report.published import PublishedResult
 from usd2kg.ontology import ClassIRI, TBox
 
 __all__ = [
@@ -13,6 +14,7 @@ __all__ = [
     "interval_text",
     "number_text",
     "p_value_text",
+    "published_text",
     "significant_digits",
     "spread_text",
 ]
@@ -65,6 +67,20 @@ def significant_digits(value: float, digits: int = 2) -> str:
     ('0.000013', '12')
     """
     return np.format_float_positional(value, precision=digits, fractional=False, trim="-")
+
+
+def published_text(result: PublishedResult | None) -> str:
+    """Return a published result as `EMA % / HF1`, or as EMA alone if the study has no HF1 for it.
+
+    >>> published_text(PublishedResult(48.0, 0.79, "")), published_text(PublishedResult(None, None, "fail"))
+    ('48 / .79', 'fail')
+    """
+    if result is None:
+        return ABSENT
+    if result.ema is None:
+        return result.note
+    f1 = "" if result.hf1 is None else f" / {number_text(result.hf1, 2).removeprefix('0')}"
+    return f"{result.ema:.0f}{f1}"
 
 
 def class_text(iri: ClassIRI | None, tbox: TBox) -> str:

@@ -38,7 +38,7 @@ def format_csv(results: Sequence[SceneResult]) -> str:
 def _csv_row(result: SceneResult, done: CellResult) -> Iterator[tuple[str, Any]]:
     cell, summary = done.cell, done.evaluation.summary
     yield "scene", guard_formula(result.spec.name)
-    yield "method", guard_formula(cell.grounder)
+    yield "method", guard_formula(cell.method)
     yield "condition", guard_formula(cell.condition)
     yield "regime", cell.regime.value
     yield "evidence", _evidence(done)
@@ -53,6 +53,13 @@ def _csv_row(result: SceneResult, done: CellResult) -> Iterator[tuple[str, Any]]
             yield key, value
     yield "seconds", done.evaluation.seconds
     yield "seconds_per_object", done.evaluation.seconds / summary.n
+    end_to_end = done.evaluation.end_to_end
+    yield "end_to_end_ema", end_to_end.ema
+    yield "end_to_end_ema_name_interval_lower", end_to_end.ema_name_interval.lower
+    yield "end_to_end_ema_name_interval_upper", end_to_end.ema_name_interval.upper
+    yield "end_to_end_hf1", end_to_end.hf1
+    yield "failures", len(done.failures)
+    yield from (_cost(done) or {}).items()
 
 
 def _evidence(done: CellResult) -> str:
@@ -63,6 +70,12 @@ def format_json(title: str, results: Sequence[SceneResult]) -> str:
     """Return scenes, object selection, analysis, and the settings and scores of each run as JSON."""
     data = {"title": title, "scenes": [_scene(result) for result in results]}
     return json.dumps(data, indent=1, ensure_ascii=True, allow_nan=False) + "\n"
+
+
+def _cost(done: CellResult) -> dict[str, Any] | None:
+    if done.cost is None:
+        return None
+    return {key: value for key, value in done.cost.as_json().items() if key != "keys"}
 
 
 def _scene(result: SceneResult) -> dict[str, Any]:
@@ -102,10 +115,12 @@ def _analysis(result: SceneResult) -> dict[str, Any]:
 
 def _run(result: SceneResult, done: CellResult) -> dict[str, Any]:
     return {
-        "method": done.cell.grounder,
+        "method": done.cell.method,
         "condition": done.cell.condition,
         "repeat": done.cell.repeat,
         **evaluation_json(done.evaluation),
+        "failures": len(done.failures),
+        "model_cost": _cost(done),
         # Folders of this machine are meaningless elsewhere.
         "scene": result.spec.path.name,
     }

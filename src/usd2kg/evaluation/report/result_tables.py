@@ -7,12 +7,19 @@ from usd2kg.evaluation.matrix import OWN_ABLATION, STUDY_ABLATION
 from usd2kg.evaluation.metrics.intervals import mean_and_deviation
 from usd2kg.evaluation.report.analysis import REGIMES, group_repeats, list_methods
 from usd2kg.evaluation.report.blocks import Table
-from usd2kg.evaluation.report.cell_text import ABSENT, interval_text, number_text, significant_digits, spread_text
-from usd2kg.evaluation.report.published import AS_PUBLISHED, PublishedResult, published_ablation, published_main
+from usd2kg.evaluation.report.cell_text import (
+    ABSENT,
+    interval_text,
+    number_text,
+    published_text,
+    significant_digits,
+    spread_text,
+)
+from usd2kg.evaluation.report.published import AS_PUBLISHED, published_ablation, published_main
+from usd2kg.evaluation.run import Evaluation
 from usd2kg.evaluation.run_matrix import CellResult, SceneResult
 from usd2kg.evaluation.score import distinct_name
 from usd2kg.evaluation.settings import REPORT
-from usd2kg.evaluation.summary import Summary
 
 __all__ = [
     "ablation_table",
@@ -52,19 +59,19 @@ def _scene_row(result: SceneResult) -> tuple[str, ...]:
 
 
 def main_table(result: SceneResult) -> Table:
-    """Return method × regime in the study's format: `EMA % / HF1`."""
+    """Return method × regime in the study's format, `EMA % / HF1`, with the end-to-end EMA in brackets."""
     runs = group_repeats(result)
     rows = tuple(
         (method, *(_ema_f1(runs.get((method, regime), ())) for regime in REGIMES)) for method in list_methods(result)
     )
-    title = f"{size_title(result)}: EMA % / HF1 by naming regime"
+    title = f"{size_title(result)}: EMA % / HF1 (EMA % end to end) by naming regime"
     return Table(title, ("method", *REGIMES), rows, _repeats_note(result))
 
 
 def published_table() -> Table:
     """Return the study's main results, with a caveat in the title."""
     rows = tuple(
-        (method, *(_published(results.get(regime)) for regime in REGIMES))
+        (method, *(published_text(results.get(regime)) for regime in REGIMES))
         for method, results in published_main().items()
     )
     note = "For orientation only: another scene with other annotators."
@@ -79,6 +86,8 @@ def detail_table(result: SceneResult) -> Table:
         "EMA %",
         "95 % by object",
         "95 % by distinct name",
+        "EMA % end to end",
+        "95 % end to end, by distinct name",
         "EMA % by distinct name",
         "EMA % accept-also",
         "HF1 95 %",
@@ -88,16 +97,19 @@ def detail_table(result: SceneResult) -> Table:
     )
     runs = group_repeats(result)
     keys = [(method, regime) for method in list_methods(result) for regime in REGIMES if (method, regime) in runs]
-    rows = tuple((*key, *_details([done.evaluation.summary for done in runs[key]])) for key in keys)
+    rows = tuple((*key, *_details([done.evaluation for done in runs[key]])) for key in keys)
     return Table(f"{size_title(result)}: intervals and further metrics", columns, rows, _repeats_note(result))
 
 
-def _details(summaries: Sequence[Summary]) -> tuple[str, ...]:
-    first = summaries[0]
+def _details(evaluations: Sequence[Evaluation]) -> tuple[str, ...]:
+    summaries = [evaluation.summary for evaluation in evaluations]
+    first, end_to_end = summaries[0], [evaluation.end_to_end for evaluation in evaluations]
     return (
         spread_text([s.ema for s in summaries], 1),
         interval_text(first.ema_interval, 1),
         interval_text(first.ema_name_interval, 1),
+        spread_text([s.ema for s in end_to_end], 1),
+        interval_text(end_to_end[0].ema_name_interval, 1),
         spread_text([s.ema_by_name for s in summaries], 1),
         spread_text([s.ema_also for s in summaries], 1),
         interval_text(first.hf1_interval, 3),
@@ -133,7 +145,7 @@ def ablation_table(result: SceneResult) -> Table | None:
     published = published_ablation()
     columns = ("condition", *list_methods(result), *(f"{method} (published)" for method in published))
     rows = tuple(
-        (*_ablation_row(result, condition), *(_ema_only(results[condition]) for results in published.values()))
+        (*_ablation_row(result, condition), *(published_text(results[condition]) for results in published.values()))
         for condition in STUDY_ABLATION
     )
     return Table(
@@ -204,19 +216,9 @@ def _repeats_note(result: SceneResult) -> str:
 
 
 def _ema_f1(repeats: Sequence[CellResult]) -> str:
+    if not repeats:
+        return ABSENT
     summaries = [done.evaluation.summary for done in repeats]
-    if not summaries:
-        return ABSENT
-    return f"{spread_text([s.ema for s in summaries], 0)} / {spread_text([s.hf1 for s in summaries], 2, '0')}"
-
-
-def _published(result: PublishedResult | None) -> str:
-    if result is None:
-        return ABSENT
-    if result.ema is None or result.hf1 is None:
-        return result.note
-    return f"{result.ema:.0f} / {number_text(result.hf1, 2).removeprefix('0')}"
-
-
-def _ema_only(result: PublishedResult) -> str:
-    return result.note if result.ema is None else f"{result.ema:.0f}"
+    end_to_end = spread_text([done.evaluation.end_to_end.ema for done in repeats], 0)
+    ema, hf1 = spread_text([s.ema for s in summaries], 0), spread_text([s.hf1 for s in summaries], 2, "0")
+    return f"{ema} / {hf1} ({end_to_end})"

@@ -5,9 +5,10 @@ from collections.abc import Callable, Iterable, Iterator, Sequence
 from pathlib import Path
 
 from usd2kg.errors import EvaluationError, OutputError
-from usd2kg.evaluation.report import error_tables, plots, result_tables
+from usd2kg.evaluation.report import error_tables, plots, result_tables, study_tables
 from usd2kg.evaluation.report.blocks import Figure, Section, Table
 from usd2kg.evaluation.report.canvas import check_matplotlib
+from usd2kg.evaluation.report.cascade_plot import plot_cascades
 from usd2kg.evaluation.report.confusion_plot import plot_confusion
 from usd2kg.evaluation.report.csv_json import format_csv, format_json
 from usd2kg.evaluation.report.html import format_html
@@ -23,10 +24,11 @@ logger = logging.getLogger(__name__)
 _Block = str | Table | Figure | None
 _HOW_TO_READ = (
     "EMA is the share of objects with exactly the gold class, in percent; HF1, from 0 to 1, gives partial credit to "
-    "classes near it in the hierarchy. Objects without an answer count as wrong. Naming regimes mask the name of the "
-    "object to ground: semantic keeps it, abbreviated drops vowels and truncates words, opaque replaces it with a "
-    "number, opaque-anonymous also replaces the names of siblings and parents. Intervals are 95 % bootstrap "
-    "intervals; if a scene contains copies, use the one by distinct name."
+    "classes near it in the hierarchy. Objects without an answer count as wrong. End to end, objects that the object "
+    "selection misses count as wrong, too; all other figures are for all objects of the gold labels. Naming regimes "
+    "mask the name of the object to ground: semantic keeps it, abbreviated drops vowels and truncates words, opaque "
+    "replaces it with a number, opaque-anonymous also replaces the names of siblings and parents. Intervals are 95 % "
+    "bootstrap intervals; if a scene contains copies, use the one by distinct name."
 )
 _NAME_QUALITY = (
     "The study concludes that the strategy should depend on the quality of the names. Here a name is good if it "
@@ -84,6 +86,7 @@ _SCENE_PLOTS: dict[str, Callable[[SceneResult, str], Figure | None]] = {
     "reliability": plots.plot_reliability,
     "risk_coverage": plots.plot_risk_coverage,
     "confusion": plot_confusion,
+    "cascade": plot_cascades,
 }
 
 _Figures = dict[tuple[str, int], Figure]
@@ -115,7 +118,7 @@ def _sections(results: Sequence[SceneResult], figures: _Figures, remark: str) ->
     yield _section("Errors", _errors(results, figures))
     yield _section("Name quality", _name_quality(results))
     yield _section("Confidence", _confidence(results, figures))
-    yield _section("Cost", [result_tables.timing_table(results), figures.get(("cost", 0))])
+    yield _section("Cost", _cost(results, figures))
 
 
 def _section(title: str, blocks: Iterable[_Block]) -> Section:
@@ -126,6 +129,7 @@ def _accuracy(results: Sequence[SceneResult], figures: _Figures) -> Iterator[_Bl
     for index, result in enumerate(results):
         yield result_tables.main_table(result)
         yield figures.get(("accuracy", index))
+    yield from map(study_tables.comparison_table, results)
     yield result_tables.published_table()
     yield from map(result_tables.detail_table, results)
     yield from map(error_tables.mcnemar_table, results)
@@ -140,6 +144,7 @@ def _ablation(results: Sequence[SceneResult], figures: _Figures) -> Iterator[_Bl
 
 def _errors(results: Sequence[SceneResult], figures: _Figures) -> Iterator[_Block]:
     for index, result in enumerate(results):
+        yield study_tables.error_classes_table(result)
         yield error_tables.misses_table(result)
         yield error_tables.confusions_table(result)
         yield figures.get(("confusion", index))
@@ -156,6 +161,15 @@ def _name_quality(results: Sequence[SceneResult]) -> Iterator[_Block]:
     for result in results:
         yield error_tables.name_quality_text(result)
         yield error_tables.name_quality_table(result)
+
+
+def _cost(results: Sequence[SceneResult], figures: _Figures) -> Iterator[_Block]:
+    yield result_tables.timing_table(results)
+    yield figures.get(("cost", 0))
+    yield study_tables.cost_table(results)
+    for index, result in enumerate(results):
+        yield study_tables.cascade_table(result)
+        yield figures.get(("cascade", index))
 
 
 def _confidence(results: Sequence[SceneResult], figures: _Figures) -> Iterator[_Block]:

@@ -1,0 +1,66 @@
+"""The grounders of a matrix: offline ones, language models with one budget, and cascades of both."""
+
+from collections.abc import Callable, Iterator, Mapping
+from contextlib import ExitStack, contextmanager
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+from usd2kg.evaluation.matrix import Cell, Matrix
+from usd2kg.grounding import CascadeGrounder, Grounder, make_grounder
+
+if TYPE_CHECKING:
+    from usd2kg.grounding.llm.factory import LLMSettings
+    from usd2kg.grounding.llm.grounder import LLMGrounder
+
+__all__ = ["MatrixGrounders", "open_grounders"]
+
+_FIRST_TIER = "lexical"
+
+
+@dataclass(frozen=True)
+class MatrixGrounders:
+    """The grounders of a matrix by name, as long as their connections are open."""
+
+    offline: Mapping[str, Grounder]
+    models: "Mapping[str, LLMGrounder]"
+    price: str
+    """The price of tokens that the user states; empty for list prices."""
+
+    def grounder(self, cell: Cell) -> Grounder:
+        """Return the grounder of a cell."""
+        if cell.cascade is not None:
+            return CascadeGrounder(self.offline[_FIRST_TIER], self.models[cell.grounder], cell.cascade)
+        return self.models.get(cell.grounder) or self.offline[cell.grounder]
+
+    def model(self, cell: Cell) -> "LLMGrounder | None":
+        """Return the language model that a cell asks; None if it asks none."""
+        return self.models.get(cell.grounder)
+
+
+@contextmanager
+def open_grounders(
+    matrix: Matrix, settings: "LLMSettings | None" = None, progress: Callable[[int, int], None] | None = None
+) -> Iterator[MatrixGrounders]:
+    """Open the grounders of a matrix.
+
+    Args:
+        matrix: the runs.
+        settings: of its language models, except for model and strategy; None for the defaults.
+        progress: called with the number of objects that a language model is done with and the total of a run.
+
+    Raises:
+        GroundingError: an extra, a key or a price is missing, or the cache cannot be opened.
+    """
+    names = dict.fromkeys(name for name in matrix.grounders if name not in matrix.language_models)
+    if matrix.cascades:
+        names.setdefault(_FIRST_TIER)
+    offline = {name: make_grounder(name) for name in names}
+    with ExitStack() as stack:
+        models: Mapping[str, LLMGrounder] = {}
+        if matrix.language_models:
+            from usd2kg.grounding.llm.factory import LLMSettings, open_llm_grounders  # noqa: PLC0415 - slow to import
+
+            settings = settings or LLMSettings("")
+            models = stack.enter_context(open_llm_grounders(matrix.language_models, settings, progress))
+        price = (settings.price or "") if settings is not None else ""
+        yield MatrixGrounders(offline, models, price)
