@@ -1,6 +1,7 @@
 """usd2kg eval: its output, and its errors."""
 
 import csv
+import hashlib
 import json
 import re
 from pathlib import Path
@@ -8,6 +9,7 @@ from pathlib import Path
 import pytest
 
 from tests.evaluation.conftest import omit_png_and_pdf
+from tests.evaluation.test_fetch import FILES, Server
 from tests.grounding.llm.servers import openai_reply, refuse, serve
 from tests.scene.usda import component, cube, xform
 
@@ -225,3 +227,26 @@ def test_rejects_invalid_input(run, room: Path, gold: Path, arguments: tuple[str
     assert message in done.err
     assert done.err.count("\n") == 1
     assert done.out == ""
+
+
+def test_fetch_prints_a_matrix_that_can_be_reproduced(run, tmp_path: Path) -> None:
+    server = Server()
+    digests = {name: hashlib.sha256(data).hexdigest() for name, data in FILES.items()}
+    entries = [
+        f'[[scene.file]]\nfile = "{name[1:]}"\naddress = "{server.url}{name}"\nsha256 = "{digest}"\n'
+        for name, digest in digests.items()
+    ]
+    head = '[[scene]]\nname = "room"\nlicence = "CC0-1.0"\nstage = "room.usda"\ngold = "gold.csv"\n'
+    (tmp_path / "manifest.toml").write_text(head + "".join(entries), encoding="utf-8")
+    try:
+        unknown = run("eval", "fetch", tmp_path / "manifest.toml", "hall")
+        done = run("eval", "fetch", tmp_path / "manifest.toml", "room", "--into", tmp_path / "scenes")
+    finally:
+        server.close()
+    assert (unknown.code, unknown.out) == (2, "")
+    assert "manifest.toml: has no scene 'hall'; expected one of room" in unknown.err
+    assert (done.code, done.out) == (0, f"{tmp_path}/scenes/matrix.toml\n")
+    assert "room: 2 files, licence CC0-1.0" in done.err
+    matrix = tmp_path / "scenes/matrix.toml"
+    assert 'gold = "room/gold.csv"' in matrix.read_text("utf-8")
+    assert run("eval", "run", tmp_path / "scenes/room/room.usda", "--gold", tmp_path / "scenes/room/gold.csv").code == 0

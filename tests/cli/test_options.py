@@ -15,8 +15,10 @@ from usd2kg.relations import ALL_KINDS, DEFAULT_KINDS, VIEWPOINT_KINDS
 OF_ONE_COMMAND = {
     "--all": "diff shows changes, the others findings",
     "--base": "diff takes the namespace of the other graph",
+    "--force": "eval annotate overwrites labels, eval fetch files that differ",
     "--format": "ground writes mappings, diff writes changes",
     "--gold": "eval reproduce takes it for --study",
+    "--into": "ontology fetch names the folder after the ontology",
     "--memory-limit": "of a scene in batch, of a query in serve",
     "--output": "each command writes another kind of file",
     "--profile": "build has auto, ontology shapes has not",

@@ -192,9 +192,9 @@ def _suggest_classes(tbox: "TBox", grounder: "Grounder", scenes: list[Path], tar
 @app.command("known")
 def known_command(registry: _Registry = None, json: JsonOutput = False) -> None:
     """List the ontologies that `ontology fetch` can download, or whose classes usd2kg ships an alignment of."""
+    from usd2kg.download import shown_address  # noqa: PLC0415
     from usd2kg.grounding.lexical.alignment.member_lists import count_listed_classes  # noqa: PLC0415
     from usd2kg.ontology import read_registry  # noqa: PLC0415
-    from usd2kg.ontology.fetch import shown_address  # noqa: PLC0415
 
     ontologies = read_registry(registry).values()
     listed = count_listed_classes()

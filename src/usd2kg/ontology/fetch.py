@@ -4,15 +4,10 @@ Nothing else in `usd2kg.ontology` uses the network.
 """
 
 import hashlib
-import re
-import urllib.error
-import urllib.request
 from collections.abc import Callable
-from http.client import HTTPException, InvalidURL
 from pathlib import Path
-from typing import Any
-from urllib.parse import urlsplit
 
+from usd2kg.download import download, shown_address
 from usd2kg.errors import OntologyError, OutputError
 from usd2kg.files import write_whole
 from usd2kg.knowledge import read_bytes
@@ -21,10 +16,9 @@ from usd2kg.ontology.known_ontologies import KnownDocument, KnownOntology
 from usd2kg.ontology.limits import DOWNLOAD
 from usd2kg.ontology.sniff import sniff_syntax
 
-__all__ = ["fetch_ontology", "shown_address"]
+__all__ = ["fetch_ontology"]
 
 _ACCEPT = "text/turtle, application/rdf+xml, text/owl-functional, application/owl+xml, */*;q=0.5"
-_SCHEMES = {"http", "https"}
 
 
 def fetch_ontology(
@@ -90,7 +84,15 @@ def _make_folder(folder: Path) -> None:
 
 
 def _fetch(document: KnownDocument, *, accepts_changed: bool) -> bytes:
-    data, shown = _download(document.address), shown_address(document.address)
+    shown = shown_address(document.address)
+    chunks = download(
+        document.address,
+        max_bytes=DOWNLOAD.document_bytes,
+        timeout_s=DOWNLOAD.timeout_s,
+        error=OntologyError,
+        accept=_ACCEPT,
+    )
+    data = b"".join(chunks)
     try:
         is_ontology = sniff_syntax(data.decode("utf-8-sig")) is not None
     except UnicodeDecodeError:
@@ -103,70 +105,6 @@ def _fetch(document: KnownDocument, *, accepts_changed: bool) -> bytes:
             f"{shown}: sha256 is {found}, expected {document.sha256}: this is another version; "
             "inspect it, and accept it with --changed"
         )
-    return data
-
-
-class _WebOnly(urllib.request.HTTPRedirectHandler):
-    """Follows redirects to http and https only."""
-
-    def redirect_request(self, *args: Any) -> urllib.request.Request | None:
-        address = args[-1]
-        if urlsplit(address).scheme not in _SCHEMES:
-            raise urllib.error.URLError(f"it redirects to {shown_address(address)}, which is not a web address")
-        return super().redirect_request(*args)
-
-
-def _opener() -> urllib.request.OpenerDirector:
-    opener = urllib.request.OpenerDirector()
-    for handler in (
-        urllib.request.ProxyHandler(),
-        urllib.request.HTTPHandler(),
-        urllib.request.HTTPSHandler(),
-        urllib.request.HTTPDefaultErrorHandler(),
-        urllib.request.HTTPErrorProcessor(),
-        _WebOnly(),
-    ):
-        opener.add_handler(handler)
-    return opener
-
-
-def shown_address(address: str) -> str:
-    """Return a web address without user, password, query and fragment, which may be secret, for printing.
-
-    >>> shown_address("https://me:secret@lab.example/onto.ttl?key=1")
-    'https://lab.example/onto.ttl'
-    """
-    place = re.split(r"[?#]", address, maxsplit=1)[0]
-    return re.sub(r"^([^/]*//)[^/]*@", r"\1", place)
-
-
-def _download(address: str) -> bytes:
-    shown = shown_address(address)
-    # Plain http is accepted because some ontologies are not served otherwise; the hash protects the content.
-    if address.partition(":")[0].lower() not in _SCHEMES:
-        raise OntologyError(f"{shown}: is not a web address; expected https://… or http://…")
-    try:
-        request = urllib.request.Request(address, headers={"Accept": _ACCEPT, "User-Agent": "usd2kg"})
-        with _opener().open(request, timeout=DOWNLOAD.timeout_s) as answer:
-            data: bytes = answer.read(DOWNLOAD.document_bytes + 1)
-            promised = answer.headers.get("Content-Length", "")
-    except urllib.error.HTTPError as error:
-        error.close()
-        raise OntologyError(f"{shown}: the server answered {error.code}; expected 200") from error
-    except (ValueError, InvalidURL) as error:
-        raise OntologyError(f"{shown}: is not a valid address; fix it in the registry") from error
-    except HTTPException as error:
-        raise OntologyError(
-            f"{shown}: the server did not answer in HTTP ({type(error).__name__}); try again"
-        ) from error
-    except OSError as error:
-        reason = getattr(error, "reason", error)
-        raise OntologyError(f"{shown}: cannot be reached ({reason}); is this machine online?") from error
-    if len(data) > DOWNLOAD.document_bytes:
-        raise OntologyError(f"{shown}: is longer than {DOWNLOAD.document_bytes:,} bytes; expected an ontology")
-    # A sized read does not report a connection that ended early.
-    if promised.isascii() and promised.isdigit() and len(data) < int(promised):
-        raise OntologyError(f"{shown}: ended after {len(data):,} of {int(promised):,} bytes; try again")
     return data
 
 

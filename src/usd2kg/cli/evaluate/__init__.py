@@ -2,7 +2,7 @@
 
 import typer
 
-from usd2kg.cli.evaluate import gold, matrix, run, stored, study
+from usd2kg.cli.evaluate import fetch, gold, matrix, run, stored, study
 
 __all__ = ["app"]
 
@@ -12,5 +12,6 @@ app.command("calibrate")(stored.calibrate_command)
 app.command("reproduce")(matrix.reproduce_command)
 app.command("compare")(stored.compare_command)
 app.command("annotate")(gold.annotate_command)
+app.command("fetch")(fetch.fetch_command)
 app.command("agreement")(gold.agreement_command)
 app.command("kitchen-set")(study.kitchen_set_command)
