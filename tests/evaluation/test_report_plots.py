@@ -180,5 +180,5 @@ def test_accuracy_and_ablation_show_the_published_results():
     figure, ablation = plots.plot_accuracy(tiny(), "a"), plots.plot_ablation(full(), "a")
     assert ablation is not None
     for drawn in (figure, ablation):
-        assert "published, another scene" in texts(drawn.svg)
+        assert "published, Kitchen Set" in texts(drawn.svg)
     assert "the best: 96 % Gemini 2.5 Flash A, semantic; 89 % Gemini 3 Flash B, abbreviated" in figure.caption

@@ -71,7 +71,7 @@ class TestPublished:
     def test_title_names_the_source(self):
         table = result_tables.published_table()
         rows = {row[0]: row[1:] for row in table.rows}
-        assert "as published, another scene (Kitchen Set, n = 125)" in table.title
+        assert "as published, Kitchen Set with other labels (n = 125)" in table.title
         assert len(rows) == 15
         assert rows["Gemini 3 Flash B"] == ("92 / .98", "89 / .96", "48 / .79", "–")
         assert rows["Qwen 3.5-27B thinking A"] == ("94 / .98", "75 / .90", "fail", "–")

@@ -114,7 +114,7 @@ class TestComparison:
             ("llm-A:openai:m", "opaque-anonymous", "50 / .87", "–", "–"),
         ]
         assert [row[6] for row in table.rows] == ["50", "25", "50", "50", "50"]
-        assert "as published, another scene (Kitchen Set, n = 125)" in table.note
+        assert "as published, Kitchen Set with other labels (n = 125)" in table.note
 
     def test_a_result_that_lacks_answers_has_no_figures(self):
         table = study_tables.comparison_table(results(cell("llm-A:openai:m", "semantic", failed=True)))

@@ -62,7 +62,7 @@ def _published_ticks(axes: "Axes") -> str:
         found = {method: one.ema for method, one in results if one is not None and one.ema is not None}
         if not found:
             continue
-        label = None if best else "published, another scene"
+        label = None if best else "published, Kitchen Set"
         places = [place + _BARS_WIDTH / 2 + 0.05] * len(found)
         axes.scatter(places, list(found.values()), 90, color=_GREY, marker="_", label=label)
         method = max(found, key=lambda name: (found[name], name))
@@ -134,7 +134,7 @@ def _published_ablation_ticks(axes: "Axes", conditions: Sequence[str]) -> None:
     ]
     if found:
         x, y = zip(*found, strict=True)
-        axes.scatter(x, y, 60, color=_GREY, marker="|", label="published, another scene")
+        axes.scatter(x, y, 60, color=_GREY, marker="|", label="published, Kitchen Set")
 
 
 def _horizontal_bars(axes: "Axes", shown: Sequence[tuple[int, float]], index: int, total: int, method: str) -> None:

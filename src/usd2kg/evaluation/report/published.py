@@ -19,7 +19,7 @@ __all__ = [
     "published_main",
 ]
 
-AS_PUBLISHED = "as published, another scene (Kitchen Set, n = 125)"
+AS_PUBLISHED = "as published, Kitchen Set with other labels (n = 125)"
 """Caveat printed next to the published results, which are not directly comparable."""
 
 

@@ -74,7 +74,7 @@ def published_table() -> Table:
         (method, *(published_text(results.get(regime)) for regime in REGIMES))
         for method, results in published_main().items()
     )
-    note = "For orientation only: another scene with other annotators."
+    note = "For orientation only: the Kitchen Set, labelled by other annotators."
     return Table(f"EMA % / HF1 {AS_PUBLISHED}", ("method", *REGIMES), rows, note)
 
 
