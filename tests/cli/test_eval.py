@@ -205,7 +205,7 @@ def test_kitchen_set_lists_objects_without_gold(run, tmp_path: Path) -> None:
     )
     done = run("eval", "kitchen-set", tmp_path)
     assert (done.code, done.out) == (0, "/Kitchen/a\n")
-    assert "1 objects, 1 of them with geometry and not inside another object (the study has 125)" in done.err
+    assert "1 object, 1 of them with geometry and not inside another object (the study has 125)" in done.err
     assert "label these objects with usd2kg eval annotate" in done.err
 
 

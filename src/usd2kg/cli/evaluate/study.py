@@ -9,7 +9,7 @@ from typer import Argument, Option
 from usd2kg.cli.options.bundles import OptionBundle
 from usd2kg.cli.options.common import OntologyFile
 from usd2kg.cli.options.model import ModelName
-from usd2kg.cli.output import emit, notify
+from usd2kg.cli.output import count_noun, emit, notify
 from usd2kg.cli.text_table import format_table
 from usd2kg.errors import EvaluationError
 
@@ -130,8 +130,8 @@ def kitchen_set_command(
     scene = read_scene(found.root)
     listed = study_objects(scene)
     notify(
-        f"{found.root}: {found.layer_count} layers, {len(scene.objects)} objects, {len(listed)} of them with geometry "
-        f"and not inside another object (the study has {STUDY_OBJECTS})"
+        f"{found.root}: {found.layer_count} layers, {count_noun(len(scene.objects), 'object')}, "
+        f"{len(listed)} of them with geometry and not inside another object (the study has {STUDY_OBJECTS})"
     )
     emit("".join(f"{obj.prim_path}\n" for obj in listed))
     notify("label these objects with usd2kg eval annotate; then run usd2kg eval reproduce --study --kitchen-set --gold")
