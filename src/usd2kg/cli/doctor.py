@@ -121,11 +121,11 @@ def _size(path: Path | None) -> int:
 
 def _credentials(environment: Mapping[str, str]) -> dict[str, bool]:
     """Return environment variable → whether it is set."""
-    from usd2kg.grounding.llm.model_reference import KEY_VARIABLES  # noqa: PLC0415
+    from usd2kg.grounding.llm.model_reference import SECRET_VARIABLES  # noqa: PLC0415
     from usd2kg.stores.server_addresses import CREDENTIAL_VARIABLES  # noqa: PLC0415
     from usd2kg.studio.settings import PASSWORD_VARIABLE  # noqa: PLC0415
 
-    names = [*(name for names in KEY_VARIABLES.values() for name in names), *CREDENTIAL_VARIABLES, PASSWORD_VARIABLE]
+    names = [*SECRET_VARIABLES, *CREDENTIAL_VARIABLES, PASSWORD_VARIABLE]
     return {name: bool(environment.get(name, "").strip()) for name in names}
 
 

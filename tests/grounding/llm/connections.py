@@ -3,6 +3,7 @@
 import pytest
 
 from tests.grounding.llm import servers
+from tests.grounding.llm.bedrock_server import converse_reply
 from usd2kg.errors import GroundingError
 from usd2kg.grounding.llm.clients import HttpClient, make_client
 from usd2kg.grounding.llm.completion import Request
@@ -11,6 +12,9 @@ KEYS = {
     "OPENAI_API_KEY": "openai-secret-1",
     "GOOGLE_API_KEY": "google-secret-1",
     "ANTHROPIC_API_KEY": "anthropic-secret-1",
+    "AZURE_OPENAI_API_KEY": "azure-secret-1",
+    "AWS_ACCESS_KEY_ID": "aws-id-1",
+    "AWS_SECRET_ACCESS_KEY": "aws-secret-1",
 }
 SCHEMA = {
     "type": "object",
@@ -23,12 +27,30 @@ ANSWERS = {
     "openai:m": servers.openai_reply("{}"),
     "google:gemini-2.5-flash": servers.gemini_reply("{}"),
     "anthropic:claude-haiku-4-5": servers.anthropic_reply("{}"),
+    "azure:gpt-4o": servers.openai_reply("{}"),
+    "bedrock:us.anthropic.claude-haiku-4-5-20251001-v1:0": converse_reply("{}"),
 }
 every_provider = pytest.mark.parametrize("model", ANSWERS)
 
 
-def connect(server, model: str, **options) -> HttpClient:
-    return make_client(f"{model}@{server.url}", **({"environment": KEYS, "timeout_s": 60, "max_retries": 0} | options))
+def connect(server, model: str, *, environment: dict[str, str] = KEYS, **options) -> HttpClient:
+    endpoints = {
+        "AZURE_OPENAI_ENDPOINT": server.url,
+        "AWS_ENDPOINT_URL_BEDROCK_RUNTIME": server.url,
+        "AWS_REGION": "eu-west-1",
+    }
+    defaults = {"environment": endpoints | environment, "timeout_s": 60, "max_retries": 0}
+    return make_client(locate(model, server.url), **(defaults | options))
+
+
+def locate(model: str, url: str) -> str:
+    """Return the model string for a model at a URL; for Azure and Bedrock the environment has the URL."""
+    return model if model.startswith(("azure:", "bedrock:")) else f"{model}@{url}"
+
+
+def endpoint(model: str, url: str) -> str:
+    """Return the base URL of requests to a server."""
+    return f"{url}/openai/v1" if model.startswith("azure:") else url
 
 
 def complete(model: str, *replies, request: Request = REQUEST, **options):

@@ -1,9 +1,10 @@
-"""Fake HTTP servers with the APIs of OpenAI, Google and Anthropic, which answer from a queue of replies."""
+"""Fake HTTP servers with the APIs of the providers, which answer from a queue of replies."""
 
 import json
+import socket
 import threading
 from collections.abc import Callable, Iterable, Iterator, Sequence
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from dataclasses import dataclass, field, replace
 from http.server import BaseHTTPRequestHandler, ThreadingHTTPServer
 from itertools import islice
@@ -20,8 +21,10 @@ class Reply:
     """Never answer."""
     is_raw: bool = False
     """The body is text that is not JSON."""
-    events: Callable[[], Iterable[str]] | None = None
-    """Server-sent events if the client requests a stream; None to answer without streaming."""
+    events: Callable[[], Iterable[str | bytes]] | None = None
+    """Server-sent events, or frames, if the client requests a stream; None to answer without streaming."""
+    stream_type: str = "text/event-stream"
+    """Content type of the events."""
     pause_s: float = 0.0
     """Pause between two events."""
     together: threading.Barrier | None = None
@@ -42,7 +45,11 @@ class Received:
 
     @property
     def asks_for_stream(self) -> bool:
-        return bool(self.body.get("stream")) or ":streamGenerateContent" in self.path
+        return (
+            bool(self.body.get("stream"))
+            or ":streamGenerateContent" in self.path
+            or self.path.endswith("/converse-stream")
+        )
 
 
 class FakeServer:
@@ -52,6 +59,7 @@ class FakeServer:
         self._replies = list(replies)
         self._lock = threading.Lock()
         self._is_closing = threading.Event()
+        self._connections: set[socket.socket] = set()
         self.received: list[Received] = []
         self._at_once = 0
         self.most_at_once = 0
@@ -71,6 +79,12 @@ class FakeServer:
     def close(self) -> None:
         self._is_closing.set()
         self._http.shutdown()
+        with self._lock:
+            connections = list(self._connections)
+        for connection in connections:
+            # Bedrock's client leaves connections open until the garbage collector runs.
+            with suppress(OSError):
+                connection.shutdown(socket.SHUT_RDWR)
         self._http.server_close()
         self._thread.join()
 
@@ -97,6 +111,16 @@ class FakeServer:
             protocol_version = "HTTP/1.1"
             wbufsize = -1
             disable_nagle_algorithm = True
+
+            def setup(self) -> None:
+                super().setup()
+                with server._lock:
+                    server._connections.add(self.connection)
+
+            def finish(self) -> None:
+                with server._lock:
+                    server._connections.discard(self.connection)
+                super().finish()
 
             def do_POST(self) -> None:
                 size = int(self.headers["Content-Length"])
@@ -127,9 +151,9 @@ class FakeServer:
                 self.wfile.write(body[: len(body) // 2] if reply.is_broken else body)
                 self.close_connection |= reply.is_broken
 
-            def _stream(self, reply: Reply, events: Iterable[str]) -> None:
+            def _stream(self, reply: Reply, events: Iterable[str | bytes]) -> None:
                 self.send_response(reply.status)
-                self.send_header("Content-Type", "text/event-stream")
+                self.send_header("Content-Type", reply.stream_type)
                 self.send_header("Transfer-Encoding", "chunked")
                 self.end_headers()
                 try:
@@ -139,9 +163,9 @@ class FakeServer:
                         server.streams_cut_off += 1
                     self.close_connection = True
 
-            def _send_events(self, reply: Reply, events: Iterable[str]) -> None:
+            def _send_events(self, reply: Reply, events: Iterable[str | bytes]) -> None:
                 for event in events:
-                    data = event.encode()
+                    data = event.encode() if isinstance(event, str) else event
                     self.wfile.write(b"%x\r\n%b\r\n" % (len(data), data))
                     self.wfile.flush()
                     with server._lock:
@@ -338,9 +362,9 @@ def anthropic_events(texts: Iterable[str], *, finish: str | None = "end_turn", t
 
 
 def refuse(status: int, message: str, **headers: str) -> Reply:
-    """Return an error response that all three providers' clients understand."""
+    """Return an error response that the clients of all providers understand."""
     return Reply(
-        {"type": "error", "error": {"type": "some_error", "code": status, "message": message}},
+        {"type": "error", "message": message, "error": {"type": "some_error", "code": status, "message": message}},
         status,
         {name.replace("_", "-"): value for name, value in headers.items()},
     )

@@ -5,9 +5,10 @@ import logging
 import pytest
 
 from tests.grounding.llm import servers
-from tests.grounding.llm.connections import ANSWERS, KEYS, REQUEST, complete, every_provider, fail
+from tests.grounding.llm.connections import ANSWERS, KEYS, REQUEST, complete, endpoint, every_provider, fail, locate
 from usd2kg.errors import GroundingError
 from usd2kg.grounding.llm.clients import make_client
+from usd2kg.grounding.llm.model_reference import KEY_VARIABLES
 from usd2kg.grounding.llm.retry import Failure, Redactor, RetryPolicy
 
 
@@ -60,7 +61,7 @@ class TestRetries:
 
         assert attempts == 3
         assert text == (
-            f"model '{model}@{url}': {url}: status 503 after 3 attempts: over loaded; "
+            f"model '{locate(model, url)}': {endpoint(model, url)}: status 503 after 3 attempts: over loaded; "
             "expected a server that works, try again later"
         )
 
@@ -69,7 +70,7 @@ class TestRetries:
         ("status", "advice"), [(401, "check {KEY}"), (403, "check {KEY}"), (404, "check its name and the address")]
     )
     def test_reports_rejections_without_retry(self, model: str, status: int, advice: str):
-        key = f"{model.partition(':')[0].upper()}_API_KEY"
+        key = " or ".join(KEY_VARIABLES[model.partition(":")[0]])
 
         text, attempts, _ = fail(model, servers.refuse(status, "no"), max_retries=3)
 
@@ -88,10 +89,10 @@ class TestRetries:
         text, attempts, url = fail(model, servers.Reply(hangs=True), timeout_s=1)
 
         assert attempts == 1
-        assert text.startswith(f"model '{model}@{url}': {url}: no readable answer: ")
+        assert text.startswith(f"model '{locate(model, url)}': {endpoint(model, url)}: no readable answer: ")
         assert "try again later" in text
 
-    @every_provider
+    @pytest.mark.parametrize("model", [model for model in ANSWERS if not model.startswith("bedrock")])
     def test_reports_a_response_that_is_not_json(self, model: str):
         text, attempts, _ = fail(model, servers.Reply("<html>", is_raw=True), max_retries=2)
 
@@ -99,6 +100,14 @@ class TestRetries:
         assert attempts == (1 if model.startswith("google") else 2)
         assert "no readable answer: " in text
         assert text.endswith("expected an answer in the provider's format, check the address and the options")
+
+    def test_a_body_that_is_no_stream_of_bedrock_counts_as_broken(self):
+        model = next(model for model in ANSWERS if model.startswith("bedrock"))
+
+        text, attempts, _ = fail(model, servers.Reply("<html>", is_raw=True), max_retries=1, sleep=lambda _: None)
+
+        assert attempts == 2
+        assert "no readable answer after 2 attempts: the stream broke off; expected a server that is up" in text
 
     def test_reports_an_unreachable_server(self):
         with servers.serve(servers.Reply()) as server:

@@ -25,8 +25,8 @@ __all__ = [
 ]
 
 MODEL_NAMES = (
-    "google:NAME, anthropic:NAME, openai:NAME, openai:NAME@URL for a server with OpenAI's protocol, or gguf:FILE for "
-    "local weights"
+    "google:NAME, anthropic:NAME, openai:NAME, openai:NAME@URL for a server with OpenAI's protocol, azure:DEPLOYMENT, "
+    "bedrock:MODEL, or gguf:FILE for local weights"
 )
 """Forms of a model string, for help texts."""
 

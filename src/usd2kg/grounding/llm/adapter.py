@@ -84,6 +84,9 @@ def make_settings(
         settings["thinking"] = request.is_thinking
     if reference.provider == "anthropic":
         return settings | {"anthropic_cache_instructions": True} | _budget_reasoning(reference, provider_model, request)
+    if reference.provider == "bedrock":
+        # It has no seed.
+        return settings | {"bedrock_cache_instructions": True}
     if reference.is_openai_compatible:
         settings |= _toggle_reasoning(reference, request.is_thinking)
     return settings | {"seed": request.sample}
@@ -96,9 +99,9 @@ def accepts_temperature(provider_model: "Model[Any]", is_thinking: bool) -> bool
         efforts = profile.get("openai_reasoning_efforts")
         can_stop = profile.get("openai_supports_reasoning_effort_none", False) if efforts is None else "none" in efforts
         return can_stop and not is_thinking
-    if provider_model.system == "anthropic":
-        always = profile.get("thinking_always_enabled", False)
-        return not (is_thinking or always or profile.get("anthropic_disallows_sampling_settings", False))
+    if provider_model.system in ("anthropic", "bedrock"):
+        flags = "thinking_always_enabled", *(f"{name}_disallows_sampling_settings" for name in ("anthropic", "bedrock"))
+        return not (is_thinking or any(profile.get(flag, False) for flag in flags))
     return True
 
 

@@ -1,4 +1,4 @@
-"""HttpClient: language models of Google, Anthropic, OpenAI, and servers compatible with OpenAI's chat completions.
+"""HttpClient: language models of Google, Anthropic, OpenAI, Azure, Bedrock, and servers with OpenAI's protocol.
 
 Model strings are described in `model_reference`. API keys come from the environment only.
 """
@@ -10,6 +10,7 @@ import time
 import weakref
 from collections.abc import Callable, Mapping
 from dataclasses import replace
+from functools import partial
 from types import TracebackType
 from typing import TYPE_CHECKING, Any, Self
 
@@ -26,8 +27,15 @@ from usd2kg.grounding.llm.capabilities import Capabilities
 from usd2kg.grounding.llm.completion import Completion, Request
 from usd2kg.grounding.llm.event_loop import EventLoopThread
 from usd2kg.grounding.llm.limits import LIMITS
-from usd2kg.grounding.llm.model_reference import KEY_VARIABLES, ModelReference, find_key, parse_model_reference
-from usd2kg.grounding.llm.providers import closing_responses, make_provider_model, open_http
+from usd2kg.grounding.llm.model_reference import (
+    KEY_VARIABLES,
+    SECRET_VARIABLES,
+    ModelReference,
+    add_endpoint,
+    find_key,
+    parse_model_reference,
+)
+from usd2kg.grounding.llm.providers import Access, close_connections, closing_responses, make_provider_model, open_http
 from usd2kg.grounding.llm.retry import Failure, Redactor, RetryPolicy, advise, convert_error
 from usd2kg.grounding.llm.streaming import request_stream
 from usd2kg.grounding.llm.traffic import RateLimiter, Traffic
@@ -65,17 +73,18 @@ def make_client(
     Raises:
         GroundingError: the model string is malformed, the key is missing, or the extra `llm` is not installed.
     """
-    reference = parse_model_reference(model)
+    reference = add_endpoint(parse_model_reference(model), environment)
     key = find_key(reference, environment)
-    redact = Redactor([key, *(environment.get(name, "").strip() for names in KEY_VARIABLES.values() for name in names)])
+    redact = Redactor([key, *(environment.get(name, "").strip() for name in SECRET_VARIABLES)])
     try:
         http = open_http(reference, timeout_s)
-        provider_model = make_provider_model(reference, key, http)
+        provider_model = make_provider_model(reference, Access(key, http, environment, timeout_s))
     except ImportError as error:
+        extra = "bedrock" if reference.provider == "bedrock" else "llm"
         missing = error.name or getattr(error.__cause__, "name", None) or "pydantic_ai"
         raise GroundingError(
             f"model '{model}': the module {missing} is not installed; "
-            "expected the extra `llm`, run pip install 'usd2kg[llm]'"
+            f"expected the extra `{extra}`, run pip install 'usd2kg[{extra}]'"
         ) from error
     traffic = Traffic()
     wait = traffic.counting(sleep)
@@ -119,10 +128,10 @@ class HttpClient:
         self._rate_limiter = rate_limiter
         self._timeout_s = timeout_s
         self._capabilities = Capabilities(
-            logprobs=reference.provider == "openai", json_schemas=reference.is_openai_compatible
+            logprobs=reference.provider in ("openai", "azure"), json_schemas=reference.is_openai_compatible
         )
         self._event_loop = EventLoopThread()
-        self._close = weakref.finalize(self, self._event_loop.stop, http.aclose)
+        self._close = weakref.finalize(self, self._event_loop.stop, partial(close_connections, http, provider_model))
 
     def __enter__(self) -> Self:
         return self
@@ -209,7 +218,9 @@ class HttpClient:
         from pydantic_ai.models import ModelRequestParameters  # noqa: PLC0415 - the extra may be missing
 
         settings = make_settings(self._reference, self._provider_model, request, features.logprobs)
-        settings |= {"timeout": self._timeout_s, "max_retries": 0}
+        if self._reference.provider != "bedrock":
+            # Bedrock's client has its timeouts from its creation.
+            settings |= {"timeout": self._timeout_s, "max_retries": 0}
         parameters = make_parameters(self._provider_model, request, self._reference.is_openai_compatible)
         if self._reference.is_openai_compatible and not features.json_schemas:
             parameters = ModelRequestParameters()
@@ -227,8 +238,8 @@ class HttpClient:
     def _explain(self, failure: Failure, attempts: int) -> str:
         status = "no readable answer" if failure.status is None else f"status {failure.status}"
         after = "" if attempts == 1 else f" after {attempts} attempts"
-        key_variable = KEY_VARIABLES[self._reference.provider][0]
+        key_variables = " or ".join(KEY_VARIABLES[self._reference.provider])
         return (
             f"model '{self.model}': {self._reference.url}: {status}{after}: {failure.message}; "
-            f"{advise(failure, key_variable)}"
+            f"{advise(failure, key_variables)}"
         )

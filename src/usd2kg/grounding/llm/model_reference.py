@@ -1,31 +1,52 @@
 """ModelReference: provider, model name and URL from a model string, and the API key from the environment.
 
-A model string is `google:NAME`, `anthropic:NAME` or `openai:NAME`, optionally followed by `@URL` for another server.
+A model string is `google:NAME`, `anthropic:NAME` or `openai:NAME`, optionally followed by `@URL` for another server,
+`azure:DEPLOYMENT` or `bedrock:MODEL`, whose URL is in the environment.
 """
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from ipaddress import ip_address
 from urllib.parse import urlsplit
 
 from usd2kg.errors import GroundingError
+from usd2kg.grounding.llm.endpoints import find_endpoint, find_url_problem
 from usd2kg.grounding.llm.retry import Redactor
 
-__all__ = ["KEY_VARIABLES", "PROVIDER_URLS", "ModelReference", "find_key", "parse_model_reference"]
+__all__ = [
+    "KEY_VARIABLES",
+    "PROVIDER_URLS",
+    "SECRET_VARIABLES",
+    "ModelReference",
+    "add_endpoint",
+    "find_key",
+    "parse_model_reference",
+]
 
 KEY_VARIABLES = {
     "google": ("GOOGLE_API_KEY", "GEMINI_API_KEY"),
     "anthropic": ("ANTHROPIC_API_KEY",),
     "openai": ("OPENAI_API_KEY",),
+    "azure": ("AZURE_OPENAI_API_KEY",),
+    "bedrock": ("AWS_BEARER_TOKEN_BEDROCK", "AWS_ACCESS_KEY_ID"),
 }
 """Provider → environment variables of its API key, in order of precedence."""
+SECRET_VARIABLES = (
+    *(name for names in KEY_VARIABLES.values() for name in names),
+    "AWS_SECRET_ACCESS_KEY",
+    "AWS_SESSION_TOKEN",
+)
+"""Environment variables that no message may show."""
 PROVIDER_URLS = {
     "google": "https://generativelanguage.googleapis.com",
     "anthropic": "https://api.anthropic.com",
     "openai": "https://api.openai.com/v1",
 }
-"""Provider → base URL of its own service."""
-_EXPECTED = "expected google:NAME, anthropic:NAME or openai:NAME, optionally followed by @http://HOST:PORT/v1"
+"""Provider → base URL of its own service, which is the same for all customers."""
+_EXPECTED = (
+    "expected google:NAME, anthropic:NAME or openai:NAME, optionally followed by @http://HOST:PORT/v1, "
+    "azure:DEPLOYMENT or bedrock:MODEL"
+)
 _NO_KEY = "none"
 """Placeholder for loopback servers without a key, since the client libraries require one."""
 
@@ -39,6 +60,7 @@ class ModelReference:
     provider: str
     name: str
     url: str
+    """Base URL of the server; empty until `add_endpoint` for a provider without one URL for all customers."""
     has_custom_url: bool
     """Whether the URL is in the model string."""
 
@@ -67,26 +89,33 @@ def parse_model_reference(model: str) -> ModelReference:
     # A model name may contain an @; a URL begins with its scheme.
     at = max(rest.find("@http://"), rest.find("@https://"))
     name, url = (rest, None) if at < 0 else (rest[:at], rest[at + 1 :].rstrip("/"))
-    if provider not in PROVIDER_URLS or not name or any(map(str.isspace, model)):
+    if provider not in KEY_VARIABLES or not name or any(map(str.isspace, model)):
         raise GroundingError(f"model '{Redactor([])(model)}': no known provider and name; {_EXPECTED}")
     if url is not None:
         _check_url(provider, name, url)
-    return ModelReference(model, provider, name, url or PROVIDER_URLS[provider], url is not None)
+    return ModelReference(model, provider, name, url or PROVIDER_URLS.get(provider, ""), url is not None)
+
+
+def add_endpoint(reference: ModelReference, environment: Mapping[str, str]) -> ModelReference:
+    """Return the reference with its URL, which for Azure and Bedrock is in the environment.
+
+    Raises:
+        GroundingError: a variable is missing or malformed.
+    """
+    return reference if reference.url else replace(reference, url=find_endpoint(reference.provider, environment))
 
 
 def _check_url(provider: str, name: str, url: str) -> None:
-    try:
-        parts = urlsplit(url)
-        is_valid = bool(parts.hostname) and parts.port != 0
-    except ValueError:
-        is_valid = False
     # The messages omit the URL, since it may contain a password.
-    if not is_valid:
-        raise GroundingError(f"model '{provider}:{name}@…': no host and port in its URL; {_EXPECTED}")
-    if parts.username is not None or parts.query or parts.fragment:
+    problem = find_url_problem(url)
+    if provider not in PROVIDER_URLS:
         raise GroundingError(
-            f"model '{provider}:{name}@…': its URL contains a user, a query or a fragment; "
-            f"expected only scheme, host, port and path, put the key into {KEY_VARIABLES[provider][0]}"
+            f"model '{provider}:{name}@…': a URL in the model string; expected it in the environment, see docs/llm.md"
+        )
+    if problem is not None:
+        raise GroundingError(
+            f"model '{provider}:{name}@…': {problem}; expected only scheme, host, port and path, "
+            f"put the key into {KEY_VARIABLES[provider][0]}"
         )
 
 

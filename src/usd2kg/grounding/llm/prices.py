@@ -9,7 +9,7 @@ from typing import Any
 
 from usd2kg.errors import GroundingError
 from usd2kg.grounding.llm.completion import Usage
-from usd2kg.grounding.llm.model_reference import PROVIDER_URLS, ModelReference, parse_model_reference
+from usd2kg.grounding.llm.model_reference import KEY_VARIABLES, ModelReference, parse_model_reference
 
 __all__ = ["Tariff", "find_tariff", "format_price", "parse_price"]
 
@@ -17,6 +17,8 @@ Tariff = Callable[[Usage], Decimal]
 """Function that returns the price of one completion in US dollars. The price per token may depend on its length."""
 
 _MILLION = 1_000_000
+_PRICE_LISTS = {"bedrock": "aws"}
+"""Provider → its name in genai-prices, if that differs."""
 _SMALLEST_SHOWN = Decimal("0.0001")
 """US dollars."""
 
@@ -24,12 +26,13 @@ _SMALLEST_SHOWN = Decimal("0.0001")
 def find_tariff(model: str) -> Tariff | None:
     """Return the list price of a model; None if it is not listed, as for local servers and weights.
 
-    If the model string has a URL, the provider is found by it: OpenRouter, for example, has its own prices.
+    If the model string has a URL, the provider is found by it: OpenRouter, for example, has its own prices. An Azure
+    deployment has a price only if it is called like its model.
 
     Raises:
         GroundingError: the model string has a known provider but is malformed.
     """
-    if model.partition(":")[0] not in PROVIDER_URLS:
+    if model.partition(":")[0] not in KEY_VARIABLES:
         return None
     try:
         tariff = _list_price(parse_model_reference(model))
@@ -42,9 +45,8 @@ def find_tariff(model: str) -> Tariff | None:
 def _list_price(reference: ModelReference) -> Tariff:
     import genai_prices  # noqa: PLC0415 - the extra may be missing
 
-    where: Any = (
-        {"provider_api_url": reference.url} if reference.has_custom_url else {"provider_id": reference.provider}
-    )
+    provider = _PRICE_LISTS.get(reference.provider, reference.provider)
+    where: Any = {"provider_api_url": reference.url} if reference.has_custom_url else {"provider_id": provider}
 
     def price(usage: Usage) -> Decimal:
         # Some servers report more cached tokens than input tokens.

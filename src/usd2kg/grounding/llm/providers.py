@@ -1,11 +1,13 @@
 """Provider models of pydantic-ai, and the HTTP client that they share."""
 
-from collections.abc import AsyncIterator, Callable
+from collections.abc import AsyncIterator, Callable, Mapping
 from contextlib import asynccontextmanager
 from contextvars import ContextVar
 from functools import cache
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NamedTuple, cast
 
+from usd2kg.grounding.llm.bedrock import make_bedrock_model
+from usd2kg.grounding.llm.endpoints import API_VERSION_VARIABLE
 from usd2kg.grounding.llm.limits import LIMITS
 from usd2kg.grounding.llm.model_reference import ModelReference
 
@@ -14,10 +16,21 @@ if TYPE_CHECKING:
 
     from httpx2 import AsyncClient, Response
     from pydantic_ai.models import Model
+    from pydantic_ai.models.bedrock import BedrockConverseModel
 
-__all__ = ["closing_responses", "make_provider_model", "open_http"]
+__all__ = ["Access", "close_connections", "closing_responses", "make_provider_model", "open_http"]
 
 _opened: ContextVar["list[Response]"] = ContextVar("opened")
+
+
+class Access(NamedTuple):
+    """What a model needs to send requests."""
+
+    key: str
+    http: "AsyncClient"
+    """Unused by Bedrock, whose client has its own connections."""
+    environment: Mapping[str, str]
+    timeout_s: float
 
 
 def open_http(reference: ModelReference, timeout_s: float) -> "AsyncClient":
@@ -65,32 +78,42 @@ async def closing_responses() -> AsyncIterator[None]:
             await response.aclose()
 
 
-def make_provider_model(reference: ModelReference, key: str, http: "AsyncClient") -> "Model[Any]":
+async def close_connections(http: "AsyncClient", provider_model: "Model[Any]") -> None:
+    """Close the connections of a model."""
+    await http.aclose()
+    if provider_model.system == "bedrock":
+        # It has connections of its own, which its library leaves open.
+        cast("BedrockConverseModel", provider_model).client.close()
+
+
+def make_provider_model(reference: ModelReference, access: Access) -> "Model[Any]":
     """Return the pydantic-ai model for a model reference.
 
     Raises:
-        ImportError: the extra `llm` is not installed.
+        ImportError: the extra `llm`, or `bedrock`, is not installed.
+        GroundingError: the settings of Bedrock are incomplete.
     """
-    return _MODEL_FACTORIES[reference.provider](reference, key, http)
+    return _MODEL_FACTORIES[reference.provider](reference, access)
 
 
-def _make_google(reference: ModelReference, key: str, http: "AsyncClient") -> "Model[Any]":
+def _make_google(reference: ModelReference, access: Access) -> "Model[Any]":
     from pydantic_ai.models.google import GoogleModel  # noqa: PLC0415
     from pydantic_ai.providers.google import GoogleProvider  # noqa: PLC0415
 
-    return GoogleModel(reference.name, provider=GoogleProvider(api_key=key, base_url=reference.url, http_client=http))
+    provider = GoogleProvider(api_key=access.key, base_url=reference.url, http_client=access.http)
+    return GoogleModel(reference.name, provider=provider)
 
 
-def _make_anthropic(reference: ModelReference, key: str, http: "AsyncClient") -> "Model[Any]":
+def _make_anthropic(reference: ModelReference, access: Access) -> "Model[Any]":
     from anthropic import AsyncAnthropic  # noqa: PLC0415
     from pydantic_ai.models.anthropic import AnthropicModel  # noqa: PLC0415
     from pydantic_ai.providers.anthropic import AnthropicProvider  # noqa: PLC0415
 
-    client = AsyncAnthropic(api_key=key, base_url=reference.url, http_client=http, max_retries=0)
+    client = AsyncAnthropic(api_key=access.key, base_url=reference.url, http_client=access.http, max_retries=0)
     return AnthropicModel(reference.name, provider=AnthropicProvider(anthropic_client=client))
 
 
-def _make_openai(reference: ModelReference, key: str, http: "AsyncClient") -> "Model[Any]":
+def _make_openai(reference: ModelReference, access: Access) -> "Model[Any]":
     from pydantic_ai.models.openai import OpenAIChatModel  # noqa: PLC0415
     from pydantic_ai.profiles.openai import OpenAIModelProfile  # noqa: PLC0415
     from pydantic_ai.providers.openai import OpenAIProvider  # noqa: PLC0415
@@ -105,12 +128,30 @@ def _make_openai(reference: ModelReference, key: str, http: "AsyncClient") -> "M
         openai_system_prompt_role="system",
         openai_chat_supports_max_completion_tokens=False,
     )
-    provider = OpenAIProvider(base_url=reference.url, api_key=key, http_client=http)
+    provider = OpenAIProvider(base_url=reference.url, api_key=access.key, http_client=access.http)
     return OpenAIChatModel(reference.name, provider=provider, profile=plain if reference.is_openai_compatible else None)
 
 
-_MODEL_FACTORIES: dict[str, Callable[[ModelReference, str, "AsyncClient"], "Model[Any]"]] = {
+def _make_azure(reference: ModelReference, access: Access) -> "Model[Any]":
+    from pydantic_ai.models.openai import OpenAIChatModel  # noqa: PLC0415
+    from pydantic_ai.providers.azure import AzureProvider  # noqa: PLC0415
+
+    # None if the URL is that of the undated API.
+    version = access.environment.get(API_VERSION_VARIABLE, "").strip() or None
+    provider = AzureProvider(
+        azure_endpoint=reference.url, api_version=version, api_key=access.key, http_client=access.http
+    )
+    return OpenAIChatModel(reference.name, provider=provider)
+
+
+def _make_bedrock(reference: ModelReference, access: Access) -> "Model[Any]":
+    return make_bedrock_model(reference, access.key, access.environment, access.timeout_s)
+
+
+_MODEL_FACTORIES: dict[str, Callable[[ModelReference, Access], "Model[Any]"]] = {
     "google": _make_google,
     "anthropic": _make_anthropic,
     "openai": _make_openai,
+    "azure": _make_azure,
+    "bedrock": _make_bedrock,
 }

@@ -16,6 +16,8 @@ __all__ = ["Failure", "Redactor", "RetryPolicy", "advise", "convert_error"]
 
 _Answer = TypeVar("_Answer")
 
+_MESSAGE_KEYS = ("message", "Message", "error", "Error", "detail")
+"""Where the providers put a message or the object that contains it; Bedrock's client capitalises them."""
 _KEY_SHAPES = re.compile(r"\b(?:sk-|AIza)[\w*-]{6,}|(?<=://)[^/\s@]+(?=@)")
 """API keys of the known providers, recognised by their prefixes, and the user part of a URL."""
 
@@ -105,11 +107,11 @@ def convert_error(error: "AgentRunError", redact: Redactor) -> Failure:
     return Failure(redact(str(error)), None, is_transient)
 
 
-def advise(failure: Failure, key_variable: str) -> str:
+def advise(failure: Failure, key_variables: str) -> str:
     """Return what was expected and what the user can do."""
     match failure.status:
         case 401 | 403:
-            return f"expected a key with access to the model, check {key_variable}"
+            return f"expected a key with access to the model, check {key_variables}"
         case 404:
             return "expected a model that the server knows, check its name and the address"
         case None if not failure.is_transient:
@@ -122,7 +124,8 @@ def advise(failure: Failure, key_variable: str) -> str:
 
 
 def _is_transient(status: int) -> bool:
-    return status in (408, 409, 429) or status >= 500
+    # 424: the model failed during a stream of Bedrock.
+    return status in (408, 409, 424, 429) or status >= 500
 
 
 def _find_message(body: object) -> str:
@@ -130,7 +133,7 @@ def _find_message(body: object) -> str:
     if isinstance(body, list) and body:
         return _find_message(body[0])
     if isinstance(body, Mapping):
-        inner = next((body[key] for key in ("message", "error", "detail") if body.get(key)), None)
+        inner = next((body[key] for key in _MESSAGE_KEYS if body.get(key)), None)
         return str(dict(body)) if inner is None else _find_message(inner)
     return "" if body is None else str(body)
 

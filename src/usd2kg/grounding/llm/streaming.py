@@ -117,4 +117,4 @@ def _is_complete(response: "ModelResponse", provider: str) -> bool:
     """Return whether a stream is complete: it has a finish reason or, at the end of OpenAI's format, the usage."""
     if "finish_reason" in (response.provider_details or {}) or response.finish_reason == "content_filter":
         return True
-    return provider == "openai" and not response.usage.unmeasured_requests
+    return provider in ("openai", "azure") and not response.usage.unmeasured_requests
