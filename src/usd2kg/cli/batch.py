@@ -135,8 +135,11 @@ def batch_command(
     from usd2kg.graph import graph_format  # noqa: PLC0415
     from usd2kg.pipeline import open_tbox  # noqa: PLC0415
 
-    if grounding.model.requests.dry_run or grounding.review.queue is not None:
-        raise GroundingError("--dry-run and --queue are for one scene; use them with usd2kg ground or build")
+    for_one_scene = grounding.review.queue, grounding.model.write_alignment
+    if grounding.model.requests.dry_run or any(path is not None for path in for_one_scene):
+        raise GroundingError(
+            "--dry-run, --queue and --write-alignment are for one scene; use them with usd2kg ground or build"
+        )
     ending = f".{file_format.removeprefix('.')}"
     graph_format(Path(f"graph{ending}"))
     scenes = find_scene_files(places, exclude_scenes or ())

@@ -43,7 +43,7 @@ class GrounderSession:
         return [undecided[index] for index in self.cascade.find_uncertain(self.offline.ground_views(undecided, tbox))]
 
     def report(self, grounding: "Grounding", tbox: "TBox") -> None:
-        """Print to stderr what each tier decided and cost, and write the review queue.
+        """Print to stderr what each tier decided and cost, and write the review queue and the alignment.
 
         Raises:
             GroundingError: see `check_completions`; all else is printed and written before.
@@ -59,7 +59,17 @@ class GrounderSession:
             waiting = find_uncertain(grounding, self.options.review.person)
             emit(format_queue(waiting, tbox), queue)
             notify(f"{len(waiting)} objects to review in {queue}; fill in the column decision for --decisions")
+        self._write_alignment(tbox)
         self.check_completions()
+
+    def _write_alignment(self, tbox: "TBox") -> None:
+        """Write the model's answers about concepts, and their number to stderr."""
+        target = self.options.model.write_alignment
+        if target is None or self.model is None:
+            return
+        text, count, left_out = self.model.format_alignment(tbox)
+        emit(text, target)
+        notify(f"{count} rows for --alignment in {target}; {left_out} left out, since their answers differ")
 
     def check_completions(self) -> None:
         """Check that the model completed at least one prompt of the run, if there were any.
@@ -118,6 +128,8 @@ def open_grounder_session(
         options.model.check_without_model()
     elif options.alignment is not None and options.model.cascade is None:
         raise GroundingError("--alignment is for the lexical grounder; expected --grounder lexical, or --cascade too")
+    if (target := options.model.write_alignment) is not None:
+        _check_alignment_target(options.grounder, target)
     offline = grounding.make_grounder(
         "lexical" if is_llm else options.grounder,
         dictionary=options.dictionary,
@@ -132,6 +144,16 @@ def open_grounder_session(
             if options.model.cascade is not None:
                 cascade = grounding.CascadeGrounder(offline, model, options.model.cascade)
         yield GrounderSession(options, cascade or model or offline, offline, model, cascade, decisions, carried)
+
+
+def _check_alignment_target(grounder: str, target: Path) -> None:
+    from usd2kg.files import check_writable  # noqa: PLC0415
+    from usd2kg.grounding.llm.factory import parse_llm_name  # noqa: PLC0415
+    from usd2kg.grounding.llm.prompt_options import Strategy  # noqa: PLC0415
+
+    if parse_llm_name(grounder)[1] is not Strategy.BY_CONCEPT:
+        raise GroundingError("--write-alignment needs answers about concepts; expected --grounder llm-concept:MODEL")
+    check_writable(target)
 
 
 @contextmanager

@@ -141,6 +141,8 @@ class RequestOptions(RequestLimits):
 class ModelOptions(OptionBundle):
     """Prompts and sampling of a language model, and its requests."""
 
+    output_options = frozenset({"write_alignment"})
+
     objects_per_prompt: ObjectsPerPrompt = None
     class_tree: Annotated[
         bool, Option("--class-tree", help="List the classes in the prompt as a tree instead of alphabetically.")
@@ -188,6 +190,10 @@ class ModelOptions(OptionBundle):
     examples: Annotated[
         int, Option("--examples", min=0, help="Number of --decisions to show in the prompt as examples.")
     ] = 0
+    write_alignment: Annotated[
+        Path | None,
+        Option("--write-alignment", help="SSSOM file to write: the answers of llm-concept, for --alignment."),
+    ] = None
     requests: RequestOptions = field(default_factory=RequestOptions)
 
     def settings(self, grounder: str) -> "LLMSettings":
@@ -227,6 +233,7 @@ class ModelOptions(OptionBundle):
             "--cascade": self.cascade is not None,
             "--thumbnails": self.thumbnails,
             "--examples": self.examples > 0,
+            "--write-alignment": self.write_alignment is not None,
         }
         for option, is_given in given.items():
             if is_given:

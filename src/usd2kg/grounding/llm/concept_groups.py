@@ -8,7 +8,7 @@ Objects of a group get the same answer, so a group must not contain an object th
 """
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from usd2kg.grounding.context.views import ObjectView
 from usd2kg.grounding.lexical.grounder import LexicalGrounder
@@ -36,6 +36,10 @@ class ConceptGroup:
     """Labels of its direct hypernyms."""
     candidates: tuple[ClassIRI, ...]
     """The classes that the lexical grounder considers for the first member, best first."""
+    readings: tuple[str, ...] = ()
+    """The distinct content words of their names; empty for names without words."""
+    is_reusable: bool = True
+    """Whether an answer is true of other objects: none is masked, and no text may command the model."""
 
 
 def reading_of(name: str) -> str:
@@ -74,9 +78,17 @@ def group_by_concept(views: Sequence[ObjectView], tbox: TBox, *, has_more_eviden
         concepts.setdefault(key, concept)
     known = describe_concepts(iri for iri in concepts.values() if iri is not None)
     return [
-        _make_group(members, known.get(concepts[key] or ""), known, predictions[members[0]])
+        replace(
+            _make_group(members, known.get(concepts[key] or ""), known, predictions[members[0]]),
+            readings=tuple(dict.fromkeys(text for at in members if (text := " ".join(words_of(views[at].name))))),
+            is_reusable=_is_reusable(views[members[0]], has_more_evidence),
+        )
         for key, members in groups.items()
     ]
+
+
+def _is_reusable(view: ObjectView, has_more_evidence: bool) -> bool:
+    return not (view.is_masked or commanding_texts(view, has_more_evidence=has_more_evidence))
 
 
 def _shared_key(view: ObjectView, concept: str | None) -> object:

@@ -9,10 +9,13 @@ from typing import NamedTuple
 
 from usd2kg.errors import GroundingError
 from usd2kg.grounding.context.views import ObjectView
+from usd2kg.grounding.lexical.alignment.alignment_rows import format_rows
+from usd2kg.grounding.lexical.concepts.taxonomy import load_taxonomy
 from usd2kg.grounding.llm.answers import Defect, ParsedAnswer, parse_answers, repair_request
 from usd2kg.grounding.llm.class_lists import name_classes
 from usd2kg.grounding.llm.completion import Completion, Finish
-from usd2kg.grounding.llm.concept_groups import group_by_concept
+from usd2kg.grounding.llm.concept_alignment import ConceptAnswer, rows_of_answers
+from usd2kg.grounding.llm.concept_groups import ConceptGroup, group_by_concept
 from usd2kg.grounding.llm.concept_rows import describe_group
 from usd2kg.grounding.llm.degeneration import is_degenerate
 from usd2kg.grounding.llm.grouping import group_similar_views, make_shortlists
@@ -39,6 +42,8 @@ class _Plan(NamedTuple):
     """The indices of the views that share each answer."""
     batches: list[Batch]
     """Requests about `groups`, by index."""
+    concepts: list[ConceptGroup] | None
+    """The same groups with their concepts; None unless the strategy is `BY_CONCEPT`."""
 
 
 class LLMGrounder:
@@ -91,6 +96,8 @@ class LLMGrounder:
         self._examples, self._picture, self._progress = examples, picture, progress
         self.tariff = client.tariff
         self._scaling = scaling
+        self.concept_answers: list[ConceptAnswer] = []
+        """What the model answered about groups of objects that share a concept; empty for other strategies."""
         self.is_calibrated = scaling is not None
 
     @property
@@ -125,13 +132,21 @@ class LLMGrounder:
             **({"shuffle": str(self._options.shuffle_seed)} if self._options.shuffle_seed is not None else {}),
         }
 
+    def format_alignment(self, tbox: TBox) -> tuple[str, int, int]:
+        """Return the answers about concepts as an alignment file, its number of rows, and of those left out.
+
+        The rows change the alignment that is built; `rows_of_answers` says which answers have none.
+        """
+        rows, left_out = rows_of_answers(self.concept_answers, self._client.model, load_taxonomy())
+        return format_rows(rows, tbox), len(rows), left_out
+
     def plan(self, views: Sequence[tuple[str, ObjectView]], tbox: TBox) -> list[Batch]:
         """Return the prompts that `ground_views` would send for each sample, without repairs."""
         return self._plan(views, tbox).batches
 
     def _plan(self, views: Sequence[tuple[str, ObjectView]], tbox: TBox) -> _Plan:
         everything = [view for _, view in views]
-        rows = None
+        rows = concepts = None
         if self._is_by_concept:
             concepts = group_by_concept(everything, tbox, has_more_evidence=self._options.has_more_evidence)
             names = name_classes(tbox)
@@ -150,7 +165,7 @@ class LLMGrounder:
             pictures=self._pictures(representatives),
             rows=rows,
         )
-        return _Plan(groups, batches)
+        return _Plan(groups, batches, concepts)
 
     def _groups(self, views: Sequence[ObjectView]) -> list[list[int]]:
         return group_similar_views(views, self._options) if self._shares_answers else [[i] for i in range(len(views))]
@@ -164,7 +179,7 @@ class LLMGrounder:
     def ground_views(self, views: Sequence[tuple[str, ObjectView]], tbox: TBox) -> list[Prediction]:
         """Return one prediction for each (prim path, view); after an interrupt, the remaining ones are failures."""
         start = time.monotonic()
-        groups, batches = self._plan(views, tbox)
+        groups, batches, concepts = self._plan(views, tbox)
         self.report.objects += len(views)
         self.report.prompts += len(batches)
         predictions: dict[int, Prediction] = {}
@@ -174,6 +189,8 @@ class LLMGrounder:
                     self.report.defects[answer.answer.defect] += len(groups[index])
                 for member in groups[index]:
                     predictions[member] = self._predict(views[member][0], answer, len(groups[index]))
+                if concepts is not None and answer.answer.class_iri is not None:
+                    self.concept_answers.append(ConceptAnswer(concepts[index], answer.answer.class_iri))
             if self._progress is not None:
                 self._progress(len(predictions), len(views))
         self.report.seconds += time.monotonic() - start
