@@ -25,6 +25,8 @@ __all__ = [
     "make_message",
     "make_parameters",
     "make_settings",
+    "prompted_parameters",
+    "tool_parameters",
 ]
 
 _MIN_REASONING_TOKENS = 1024
@@ -53,6 +55,25 @@ def make_parameters(
     schema = define_rows_once(request.schema)
     answer = OutputObjectDefinition(schema, name="answer", strict=True if is_openai_compatible else None)
     return ModelRequestParameters(output_mode="native" if is_enforced else "prompted", output_object=answer)
+
+
+def tool_parameters(request: Request) -> "ModelRequestParameters":
+    """Return the output format of an answer that is the arguments of a tool, which the model must call."""
+    from pydantic_ai.models import ModelRequestParameters  # noqa: PLC0415
+    from pydantic_ai.tools import ToolDefinition  # noqa: PLC0415
+
+    schema = define_rows_once(request.schema)
+    tool = ToolDefinition(name="answer", parameters_json_schema=schema, description="Give the answer.", kind="output")
+    return ModelRequestParameters(output_mode="tool", output_tools=[tool], allow_text_output=False)
+
+
+def prompted_parameters(request: Request) -> "ModelRequestParameters":
+    """Return the output format of an answer in plain text, whose schema is part of the instructions."""
+    from pydantic_ai.models import ModelRequestParameters  # noqa: PLC0415
+    from pydantic_ai.output import OutputObjectDefinition  # noqa: PLC0415
+
+    answer = OutputObjectDefinition(define_rows_once(request.schema), name="answer")
+    return ModelRequestParameters(output_mode="prompted", output_object=answer)
 
 
 def define_rows_once(schema: Mapping[str, Any]) -> dict[str, Any]:
@@ -145,9 +166,11 @@ def convert_response(
         provider: name of the provider.
         cutoff: why the client ended the response; None if the server did.
     """
-    from pydantic_ai.messages import TextPart, ThinkingPart  # noqa: PLC0415
+    from pydantic_ai.messages import TextPart, ThinkingPart, ToolCallPart  # noqa: PLC0415
 
     text = "".join(part.content for part in response.parts if isinstance(part, TextPart))
+    # The answer is what the tool is called with, as the model wrote it; it may write text before.
+    text = next((str(part.args or "") for part in response.parts if isinstance(part, ToolCallPart)), text)
     thinking = "".join(part.content for part in response.parts if isinstance(part, ThinkingPart))
     finish = Finish.LENGTH if response.finish_reason == "length" else Finish.STOP
     usage = response.usage

@@ -22,6 +22,8 @@ from usd2kg.grounding.llm.adapter import (
     make_message,
     make_parameters,
     make_settings,
+    prompted_parameters,
+    tool_parameters,
 )
 from usd2kg.grounding.llm.capabilities import Capabilities
 from usd2kg.grounding.llm.completion import Completion, Request
@@ -128,7 +130,10 @@ class HttpClient:
         self._rate_limiter = rate_limiter
         self._timeout_s = timeout_s
         self._capabilities = Capabilities(
-            logprobs=reference.provider in ("openai", "azure"), json_schemas=reference.is_openai_compatible
+            logprobs=reference.provider in ("openai", "azure"),
+            json_schemas=reference.is_openai_compatible,
+            json_objects=reference.is_openai_compatible,
+            tools=reference.is_openai_compatible,
         )
         self._event_loop = EventLoopThread()
         self._close = weakref.finalize(self, self._event_loop.stop, partial(close_connections, http, provider_model))
@@ -223,11 +228,14 @@ class HttpClient:
             settings |= {"timeout": self._timeout_s, "max_retries": 0}
         parameters = make_parameters(self._provider_model, request, self._reference.is_openai_compatible)
         if self._reference.is_openai_compatible and not features.json_schemas:
-            parameters = ModelRequestParameters()
             # llama-cpp-python's server would sort its vocabulary for each token, which takes longer than decoding it.
             settings.pop("openai_top_logprobs", None)
-            body = {**settings.get("extra_body", {}), "response_format": json_object_format(request)}
-            settings |= {"extra_body": body}
+            if features.json_objects:
+                parameters = ModelRequestParameters()
+                body = {**settings.get("extra_body", {}), "response_format": json_object_format(request)}
+                settings |= {"extra_body": body}
+            else:
+                parameters = tool_parameters(request) if features.tools else prompted_parameters(request)
         return {
             "messages": [make_message(request)],
             "model_settings": settings,

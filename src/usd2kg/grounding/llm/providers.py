@@ -122,6 +122,7 @@ def _make_openai(reference: ModelReference, access: Access) -> "Model[Any]":
     plain = OpenAIModelProfile(
         json_schema_transformer=None,
         supports_json_schema_output=True,
+        supports_json_object_output=False,
         supports_thinking=False,
         thinking_always_enabled=False,
         openai_supports_reasoning=False,

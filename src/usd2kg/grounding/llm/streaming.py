@@ -110,6 +110,8 @@ def _new_text(event: "ModelResponseStreamEvent") -> str:
             delta=kinds.TextPartDelta(content_delta=text) | kinds.ThinkingPartDelta(content_delta=text)
         ):
             return text or ""
+        case kinds.PartDeltaEvent(delta=kinds.ToolCallPartDelta(args_delta=str(text))):
+            return text
     return ""
 
 

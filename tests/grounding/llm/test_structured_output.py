@@ -1,0 +1,117 @@
+"""The form in which each kind of server gets the schema of the answer."""
+
+import json
+from collections.abc import Iterator
+
+import pytest
+
+from tests.grounding.llm import servers
+from tests.grounding.llm.connections import REQUEST, connect, fail
+from usd2kg.grounding.llm.completion import Completion, Finish, Usage
+
+ANSWER = '{"class": "Cup"}'
+NO_SCHEMA = servers.refuse(400, "response_format: json_schema is not supported")
+NO_OBJECT = servers.refuse(422, "response_format: extra inputs are not permitted")
+NO_TOOLS = servers.refuse(400, "registry.ollama.ai/library/m does not support tools")
+XGRAMMAR = servers.refuse(400, "The provided JSON schema contains features not supported by xgrammar.")
+LLAMA = servers.refuse(400, "Failed to parse grammar")
+
+
+def tool_reply(arguments: str, *, finish: str = "tool_calls") -> servers.Reply:
+    """Return a streamed chat completion that calls a tool, as vLLM and Ollama send it."""
+    head = {"id": "c1", "object": "chat.completion.chunk", "created": 1, "model": "m"}
+
+    def chunk(delta: dict, reason: str | None = None) -> str:
+        return servers.sse({**head, "choices": [{"index": 0, "delta": delta, "finish_reason": reason}]})
+
+    def events() -> Iterator[str]:
+        function = {"name": "answer", "arguments": ""}
+        yield chunk(
+            {"role": "assistant", "tool_calls": [{"index": 0, "id": "t", "type": "function"} | {"function": function}]}
+        )
+        for piece in servers.pieces(arguments):
+            yield chunk({"tool_calls": [{"index": 0, "function": {"arguments": piece}}]})
+        yield chunk({}, finish)
+        yield servers.sse({**head, "choices": [], "usage": servers.OPENAI_USAGE})
+        yield "data: [DONE]\n\n"
+
+    return servers.Reply(events=events)
+
+
+def form_of(body: dict) -> str:
+    if "response_format" in body:
+        return body["response_format"]["type"]
+    return "tool" if "tools" in body else "text"
+
+
+def ask_twice(*replies: servers.Reply) -> tuple[Completion, list[dict]]:
+    """Return the second completion, and the bodies of all requests."""
+    with servers.serve(*replies) as server, connect(server, "openai:m") as client:
+        client.complete(REQUEST)
+        return client.complete(REQUEST), [received.body for received in server.received]
+
+
+@pytest.mark.parametrize(
+    ("replies", "forms"),
+    [
+        ([servers.openai_reply(ANSWER)], ["json_schema", "json_schema"]),
+        ([NO_SCHEMA, servers.openai_reply(ANSWER)], ["json_schema", "json_object", "json_object"]),
+        ([NO_SCHEMA, NO_OBJECT, tool_reply(ANSWER)], ["json_schema", "json_object", "tool", "tool"]),
+        ([XGRAMMAR, XGRAMMAR, tool_reply(ANSWER)], ["json_schema", "json_object", "tool", "tool"]),
+        (
+            [NO_SCHEMA, NO_OBJECT, NO_TOOLS, servers.openai_reply(ANSWER)],
+            ["json_schema", "json_object", "tool", "text", "text"],
+        ),
+        (
+            [LLAMA, LLAMA, LLAMA, servers.openai_reply(ANSWER)],
+            ["json_schema", "json_object", "tool", "text", "text"],
+        ),
+    ],
+    ids=[
+        "vLLM, Ollama, llama.cpp",
+        "llama-cpp-python",
+        "only tools",
+        "vLLM's grammar",
+        "no form",
+        "llama.cpp's grammar",
+    ],
+)
+def test_takes_the_first_form_that_is_not_rejected_and_keeps_it(replies: list[servers.Reply], forms: list[str]):
+    completion, bodies = ask_twice(*replies)
+
+    assert [form_of(body) for body in bodies] == forms
+    assert (completion.text, completion.finish, completion.usage) == (ANSWER, Finish.STOP, Usage(100, 60, 7))
+
+
+def test_the_tool_must_be_called_with_the_enum():
+    _, bodies = ask_twice(NO_SCHEMA, NO_OBJECT, tool_reply(ANSWER))
+
+    (tool,) = bodies[-1]["tools"]
+    assert bodies[-1]["tool_choice"] == "required" or bodies[-1]["tool_choice"]["function"]["name"] == "answer"
+    assert tool["function"]["parameters"]["properties"]["class"]["enum"] == ["Knife", "Cup"]
+
+
+def test_plain_text_has_the_schema_in_the_instructions():
+    _, bodies = ask_twice(NO_SCHEMA, NO_OBJECT, NO_TOOLS, servers.openai_reply(ANSWER))
+
+    system = json.dumps([message for message in bodies[-1]["messages"] if message["role"] == "system"])
+    assert "the classes" in system
+    assert '"Knife"' in system.replace('\\"', '"')
+
+
+def test_a_truncated_call_is_a_truncated_completion():
+    completion, _ = ask_twice(NO_SCHEMA, NO_OBJECT, tool_reply('{"class": "Cu', finish="length"))
+
+    assert (completion.text, completion.finish) == ('{"class": "Cu', Finish.LENGTH)
+
+
+def test_a_call_without_end_is_cut_off():
+    completion, _ = ask_twice(NO_SCHEMA, NO_OBJECT, tool_reply('{"class": "' + "Cup, " * 2000))
+
+    assert completion.finish is Finish.DEGENERATE
+
+
+def test_another_error_changes_no_form():
+    text, attempts, _ = fail("openai:m", servers.refuse(400, "context of 4096 tokens exceeded"))
+
+    assert (attempts, "context of 4096 tokens exceeded" in text) == (1, True)
