@@ -3,11 +3,13 @@
 Usage: python -m benchmarks.relations.judged [SCENE...] (default: all)
 
 The lists are in `judged`; `on` and `inside` of the demo kitchen are written with the scene. The real scenes are read
-from the folder that the variable USD2KG_SHARED names, `../shared` by default; a missing one is skipped.
+from the folder that the variable USD2KG_SHARED names, `../shared` by default, the FZK house from the Debian package
+assimp-testmodels, or the folder USD2KG_ASSIMP_MODELS; a missing one is skipped.
 """
 
 import csv
 import math
+import os
 import sys
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
@@ -23,6 +25,7 @@ from usd2kg.relations import Relation
 HERE = Path(__file__).parent
 KINDS = ("on", "inside", "part-of", "attached-to", "room", "touching")
 ANY = "*"
+ASSIMP_MODELS = Path(os.environ.get("USD2KG_ASSIMP_MODELS", "/usr/share/assimp/models"))
 
 
 class Sources(NamedTuple):
@@ -42,6 +45,13 @@ SCENES = {
     ),
     "office": Sources(ROOT / "benchmarks/scenes/office/office.usda", (HERE / "judged/office.csv",)),
     "dlr_kitchen": Sources(SHARED / "scenes/dlr_kitchen/source/dlr_kitchen.usda", (HERE / "judged/dlr_kitchen.csv",)),
+    "franka_kitchen": Sources(
+        SHARED / "scenes/franka_kitchen/franka_kitchen.usdc", (HERE / "judged/franka_kitchen.csv",)
+    ),
+    "island_kitchen": Sources(
+        ROOT / "benchmarks/scenes/island_kitchen/island_kitchen.usdc", (HERE / "judged/island_kitchen.csv",)
+    ),
+    "fzk_house": Sources(ASSIMP_MODELS / "IFC/AC14-FZK-Haus.ifc", (HERE / "judged/fzk_house.csv",)),
 }
 
 
@@ -168,7 +178,7 @@ def main(names: list[str]) -> None:
     for name in names or SCENES:
         source = SCENES[name]
         if not source.stage.exists():
-            errors_and_notes.append(f"{name} is skipped: {source.stage} is missing; set USD2KG_SHARED")
+            errors_and_notes.append(f"{name} is skipped: {source.stage} is missing; set USD2KG_SHARED or USD2KG_ASSIMP_MODELS")
             continue
         facts = [fact for path in source.judged for fact in read_judged(path)]
         tallies = compare(facts, usd2kg.build(source.stage).graph.relations)
