@@ -178,7 +178,8 @@ def main(names: list[str]) -> None:
     for name in names or SCENES:
         source = SCENES[name]
         if not source.stage.exists():
-            errors_and_notes.append(f"{name} is skipped: {source.stage} is missing; set USD2KG_SHARED or USD2KG_ASSIMP_MODELS")
+            where = "USD2KG_SHARED or USD2KG_ASSIMP_MODELS"
+            errors_and_notes.append(f"{name} is skipped: {source.stage} is missing; set {where}")
             continue
         facts = [fact for path in source.judged for fact in read_judged(path)]
         tallies = compare(facts, usd2kg.build(source.stage).graph.relations)

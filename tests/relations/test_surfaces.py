@@ -5,6 +5,7 @@ import pytest
 
 from tests.graph.records import thing
 from tests.relations.room_builder import FLOOR, RULES, Placed, artifact, relate
+from tests.relations.test_part_of import joint
 from tests.shapes.solids import Surface, boxes, open_box, table, turned
 from usd2kg.relations import Relation
 from usd2kg.scene import Box
@@ -99,6 +100,68 @@ class TestHanging:
         assert room.of("one") == set()
 
 
+class TestBesideWallCupboards:
+    """Two cupboards of 0.6 m × 0.38 m × 0.7 m in a row, over the floor."""
+
+    @staticmethod
+    def row(*, has_wall: bool) -> Room:
+        room = flat() if has_wall else Room(FLOOR)
+        room.box("left", "KitchenCabinet", (1, 4.4, 1.4), (0.6, 0.38, 0.7))
+        return room.box("right", "KitchenCabinet", (1.6, 4.4, 1.4), (0.7, 0.38, 0.7))
+
+    def test_the_wall_holds_both(self):
+        assert self.row(has_wall=True).of("left") == self.row(has_wall=True).of("right") == {("attached-to", "walls")}
+
+    def test_without_a_wall_neither_holds_the_other(self):
+        assert self.row(has_wall=False).of("left") == self.row(has_wall=False).of("right") == set()
+
+    def test_a_much_smaller_thing_at_their_side_is_held(self):
+        room = self.row(has_wall=False).box("clock", "DesignedArtifact", (0.97, 4.5, 1.7), (0.03, 0.2, 0.2))
+        assert room.of("clock") == {("attached-to", "left")}
+
+    def test_a_thing_of_half_the_size_is_not(self):
+        room = self.row(has_wall=False).box("rack", "DesignedArtifact", (0.7, 4.4, 1.4), (0.3, 0.38, 0.7))
+        assert room.of("rack") == set()
+
+    @pytest.mark.parametrize(("height", "expected"), [(1.7, set()), (1.8, {("attached-to", "fridge")})])
+    def test_what_stands_beside_holds_them_if_it_reaches_their_middle(self, height: float, expected: set):
+        # The middle is at 1.75 m.
+        room = Room(FLOOR).box("cupboard", "KitchenCabinet", (1, 0, 1.4), (0.6, 0.38, 0.7))
+        room.box("fridge", "Refrigerator", (1.6, 0, 0), (0.7, 0.7, height))
+        assert room.of("cupboard") == expected
+
+
+class TestOverWallMountedThings:
+    """A hood or a shelf on the wall, at a height of 1.5 m."""
+
+    @staticmethod
+    def over_hood(start: float, y: float = 4.4) -> set[tuple[str, str]]:
+        """Return where a cupboard that is 0.5 m wide belongs, over a hood from x = 2 to 3."""
+        room = flat().box("hood", "DesignedArtifact", (2, 4.3, 1.5), (1, 0.5, 0.2))
+        return room.box("cupboard", "KitchenCabinet", (start, y, 1.7), (0.5, 0.38, 0.7)).of("cupboard")
+
+    def test_what_overhangs_and_reaches_the_wall_hangs_there(self):
+        assert self.over_hood(1.75) == {("attached-to", "walls")}
+
+    def test_what_has_all_its_feet_on_it_lies_there(self):
+        assert self.over_hood(2.2) == {("on", "hood")}
+
+    def test_what_does_not_reach_the_wall_lies_there(self):
+        # 10 cm off the wall.
+        assert self.over_hood(1.75, 4.32) == {("on", "hood")}
+
+    def test_what_overhangs_a_thing_that_stands_is_on_it(self):
+        room = flat().box("block", "DesignedArtifact", (2, 4.3, 0), (1, 0.5, 1.7))
+        assert room.box("cupboard", "KitchenCabinet", (1.75, 4.4, 1.7), (0.5, 0.38, 0.7)).of("cupboard") == {
+            ("on", "block")
+        }
+
+    def test_it_no_longer_counts_as_support(self):
+        room = flat().box("hood", "DesignedArtifact", (2, 4.3, 1.5), (1, 0.5, 0.2))
+        room.box("cupboard", "KitchenCabinet", (1.75, 4.4, 1.7), (0.5, 0.38, 0.7))
+        assert ("cupboard", "touching", "hood") in room.relate() or ("hood", "touching", "cupboard") in room.relate()
+
+
 def shelf(*, has_back: bool) -> Room:
     boards = [((0, 0, z), (1, 0.3, z + 0.02)) for z in (0.1, 0.5, 0.9)]
     sides = [((0, 0, 0), (0.02, 0.3, 0.92)), ((0.98, 0, 0), (1, 0.3, 0.92))]
@@ -123,6 +186,34 @@ class TestShelfInOneMesh:
 
 BOX = ((0, 0, 0), (0.6, 0.4, 0.4))
 BALL = ((0.25, 0.15, 0.011), (0.35, 0.25, 0.111))
+
+
+def machine_with_part(part: Surface) -> set[tuple[str, str, str]]:
+    """Return the relations of a part that slides in a case with an open front."""
+    case = boxes(
+        ((0, 0, 0), (0.6, 0.6, 0.02)),
+        ((0, 0, 0.58), (0.6, 0.6, 0.6)),
+        ((0, 0, 0), (0.02, 0.6, 0.6)),
+        ((0.58, 0, 0), (0.6, 0.6, 0.6)),
+        ((0, 0.58, 0), (0.6, 0.6, 0.6)),
+    )
+    room = Room(FLOOR).mesh("case", "DesignedArtifact", case).mesh("part", "DesignedArtifact", part)
+    rail = [joint("/case", "/part", "prismatic")]
+    found = relate(*room.placed, kinds=("on", "inside", "part-of"), joints=rail, surfaces=room.surfaces)
+    return {(r.target[1:], r.kind, r.anchor[1:]) for r in found if r.target == "/part"}
+
+
+class TestPartsInCavities:
+    def test_a_basket_is_in_its_machine(self):
+        basket = open_box((0.05, 0.05, 0.2), (0.55, 0.55, 0.3))
+        assert machine_with_part(basket) == {("part", "part-of", "case"), ("part", "inside", "case")}
+
+    def test_one_that_is_pulled_out_is_not(self):
+        basket = open_box((0.05, -0.4, 0.2), (0.55, 0.1, 0.3))
+        assert machine_with_part(basket) == {("part", "part-of", "case")}
+
+    def test_a_front_is_not(self):
+        assert machine_with_part(boxes(((0, 0, 0), (0.6, 0.015, 0.6)))) == {("part", "part-of", "case")}
 
 
 class TestContainers:

@@ -7,13 +7,13 @@ from numpy.typing import NDArray
 
 from usd2kg.relations.array_records import concatenate_rows, first_of_each_group, rounded, select_rows
 from usd2kg.relations.boxed_objects import BoxedObjects, ClassMembership
-from usd2kg.relations.distances import surface_distances
+from usd2kg.relations.distances import box_gaps, surface_distances
 from usd2kg.relations.model import Links, margin_below, margin_score
 from usd2kg.relations.stronger import StrongerRelations
 from usd2kg.relations.thresholds import AttachedRule
 from usd2kg.shapes import overlapping_pairs
 
-__all__ = ["find_attached"]
+__all__ = ["find_attached", "find_held_beside_support"]
 
 Array = NDArray[np.float64]
 Indices = NDArray[np.int64]
@@ -69,13 +69,42 @@ def find_attached(
     pairs = _near_pairs(boxed, targets, np.flatnonzero(may_hold), is_mount, reach, rule)
     pairs = select_rows(pairs, ~stronger.are_related(pairs.target, pairs.anchor))
     pairs = select_rows(pairs, ~_are_held_by_target(boxed, pairs, stronger.holder))
+    is_beside = ~pairs.hangs & ~is_mount[pairs.anchor]
+    pairs = select_rows(pairs, ~(is_beside & _meet_below_middle(boxed, pairs, rule)))
     gap = surface_distances(boxed, pairs.target, pairs.anchor, pairs.limit)
     pairs = select_rows(pairs._replace(gap=gap), gap <= pairs.limit)
     if needs_mount:
         pairs = select_rows(pairs, np.isin(pairs.target, pairs.target[is_mount[pairs.anchor]]))
     best = _nearest_held(boxed, pairs, is_mount, rule)
+    best = select_rows(best, ~_are_beside_unheld(boxed, best, targets, is_mount, rule))
     confidence = margin_score(margin_below(np.clip(best.gap, 0, None), best.limit))
     return Links("attached-to", rule.rule, best.target, best.anchor, {"gap": best.gap}, confidence)
+
+
+def find_held_beside_support(
+    boxed: BoxedObjects, classes: ClassMembership, on: Links, attached: Links, rule: AttachedRule
+) -> Links:
+    """Return the `attached-to` links of objects that a wall or ceiling holds rather than the object below.
+
+    These objects overhang a supporter that hangs itself, and are as near as it to the wall or ceiling that holds it: a
+    wall cupboard that meets a cooker hood hangs beside it, but a book lies on a wall shelf.
+
+    Args:
+        boxed: the objects.
+        classes: membership in class lists.
+        on: the `on` links found so far, with one anchor each.
+        attached: the `attached-to` links found so far.
+        rule: the thresholds.
+    """
+    mount = np.full(len(boxed), -1)
+    is_mount = classes.are_in("mounts")[boxed.scene_index[attached.anchor]]
+    mount[attached.target[is_mount]] = attached.anchor[is_mount]
+    some = np.flatnonzero((on.numbers["overlapRatio"] < rule.min_borne) & (mount[on.anchor] >= 0))
+    target, anchor = on.target[some], mount[on.anchor[some]]
+    limit = np.full(len(some), rule.max_gap)
+    gap = surface_distances(boxed, target, anchor, limit)
+    confidence = margin_score(margin_below(np.clip(gap, 0, None), limit))
+    return Links("attached-to", rule.rule, target, anchor, {"gap": gap}, confidence).where(gap <= limit)
 
 
 def _ground_below(boxed: BoxedObjects, targets: Indices, rule: AttachedRule) -> Array:
@@ -134,6 +163,40 @@ def _are_held_by_target(boxed: BoxedObjects, pairs: _Mounts, holder: Indices) ->
     ends = zip(pairs.target.tolist(), pairs.anchor.tolist(), strict=True)
     nested = [paths[anchor].startswith(f"{paths[target]}/") for target, anchor in ends]
     return np.asarray(found | np.array(nested, np.bool_))
+
+
+def _meet_below_middle(boxed: BoxedObjects, pairs: _Mounts, rule: AttachedRule) -> Mask:
+    """Return for each pair whether two upright faces meet, all below the middle of the target, which would tip over."""
+    gaps = box_gaps(boxed, pairs.target, pairs.anchor)
+    meet = (gaps[:, :2].max(axis=1) >= -rule.max_contact) & (gaps[:, 2] < 0)
+    return np.asarray(meet & (boxed.upper[pairs.anchor, 2] < boxed.middle[pairs.target, 2]))
+
+
+def _are_beside_unheld(
+    boxed: BoxedObjects, pairs: _Mounts, targets: Indices, is_mount: Mask, rule: AttachedRule
+) -> Mask:
+    """Return for each pair whether the target is beside an object that nothing holds and that is not much larger.
+
+    Neither of two wall cupboards holds the other if their wall is not drawn.
+
+    Args:
+        boxed: the objects.
+        pairs: the best pair of each target.
+        targets: the objects that neither stand nor are on, in or part of anything.
+        is_mount: whether each object is a wall or ceiling.
+        rule: the thresholds.
+    """
+    is_unheld = np.zeros(len(boxed), np.bool_)
+    is_unheld[targets] = True
+    is_unheld[is_mount] = False
+    is_unheld[pairs.target] = False
+    is_comparable = boxed.volume[pairs.anchor] < rule.min_bearing_ratio * boxed.volume[pairs.target]
+    may_drop = ~pairs.hangs & ~is_mount[pairs.anchor] & is_comparable
+    dropped = np.zeros(len(pairs.target), np.bool_)
+    while (more := may_drop & ~dropped & is_unheld[pairs.anchor]).any():
+        dropped |= more
+        is_unheld[pairs.target[more]] = True
+    return dropped
 
 
 def _nearest_held(boxed: BoxedObjects, pairs: _Mounts, is_mount: Mask, rule: AttachedRule) -> _Mounts:

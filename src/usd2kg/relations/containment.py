@@ -70,7 +70,9 @@ def find_inside(boxed: BoxedObjects, classes: ClassMembership, wholes: Indices, 
                 may &= ~_overlap_as_parts(target, anchor, wholes, is_drawer)
             may &= _overlap_vertically(boxed, target, anchor)
             found.append(_enclosed(boxed, target[may], anchor[may], rules.inside))
-            is_around = may_be_in[target] & may_surround[anchor] & ~may & (wholes[target] != anchor)
+            is_around = may_be_in[target] & may_surround[anchor] & ~may
+            if has_parts:
+                is_around &= ~((wholes[target] == anchor) & _are_fronts(boxed, target, anchor, rules.inside))
             is_around &= _overlap_vertically(boxed, target, anchor)
             around = _enclosed(boxed, target[is_around], anchor[is_around], rules.inside)
             found.append(around._replace(is_surrounded=np.ones(len(around.target), np.bool_)))
@@ -90,6 +92,15 @@ def _overlap_as_parts(target: Indices, anchor: Indices, wholes: Indices, is_draw
     """Return for each pair whether it overlaps as parts do: a cabinet in its drawer, a drawer behind a taller front."""
     are_beside = is_drawer[target] & is_drawer[anchor] & (wholes[target] >= 0) & (wholes[target] == wholes[anchor])
     return np.asarray((wholes[anchor] == target) | are_beside)
+
+
+def _are_fronts(boxed: BoxedObjects, target: Indices, anchor: Indices, rule: InsideRule) -> Mask:
+    """Return for each pair whether the target is a thin upright sheet at a side of the anchor, as an inset door is."""
+    thickness, depth = boxed.size[target, :2], boxed.size[anchor, :2]
+    below = boxed.lower[target, :2] - boxed.lower[anchor, :2]
+    above = boxed.upper[anchor, :2] - boxed.upper[target, :2]
+    is_at_side = np.minimum(below, above) <= thickness
+    return np.asarray((is_at_side & (thickness <= rule.max_front_share * depth)).any(axis=1))
 
 
 def _overlap_vertically(boxed: BoxedObjects, target: Indices, anchor: Indices) -> Mask:
@@ -143,10 +154,11 @@ def _surfaces_agree(
 ) -> Mask:
     """Return for each pair whether the surface of the anchor encloses the target, as far as it is known.
 
-    Parts are in their whole, whose surface may be that of its front or of a solid.
+    Drawers are in their whole, whose surface may be that of its front or of a solid.
     """
     agrees = np.ones(len(pairs.target), np.bool_)
-    known = np.flatnonzero(boxed.has_surface[pairs.anchor] & (wholes[pairs.target] != pairs.anchor))
+    is_drawer = (wholes[pairs.target] == pairs.anchor) & ~pairs.is_surrounded
+    known = np.flatnonzero(boxed.has_surface[pairs.anchor] & ~is_drawer)
     some, rule = select_rows(pairs, known), rules.inside
     found = measure_enclosures(boxed, some.target, some.anchor)
     is_caged = (found.below < rule.min_below) & (found.caged >= rule.min_caged)

@@ -18,7 +18,7 @@ from usd2kg.relations.adjacency import (
     measure_surface_distances,
 )
 from usd2kg.relations.array_records import select_rows
-from usd2kg.relations.attachment import find_attached
+from usd2kg.relations.attachment import find_attached, find_held_beside_support
 from usd2kg.relations.between import find_between
 from usd2kg.relations.boxed_objects import BoxedObjects, ClassMembership
 from usd2kg.relations.connections import (
@@ -93,9 +93,12 @@ class _Finder:
         yield from containment.links
         stronger = StrongerRelations(self.boxed, containment, parts)
         support = find_support(self.boxed, self.classes, stronger.is_loose, containment.container, self.rules)
-        yield from stronger.add_support(support.links)
+        resting = stronger.add_support(support.links)
         # What is near a wall hangs there rather than hovering over what is below; the rest may hang from what hovers.
-        yield self._attached(stronger, needs_mount=True)
+        attached = self._attached(stronger, needs_mount=True)
+        beside = find_held_beside_support(self.boxed, self.classes, resting[0], attached, self.rules.attached)
+        yield from stronger.replace_support(resting, beside)
+        yield from (attached, beside)
         yield from stronger.add_support([find_hovering(self.boxed, support.near, stronger.is_free, self.rules)])
         yield self._attached(stronger, needs_mount=False)
         if kinds & ROOM_KINDS:

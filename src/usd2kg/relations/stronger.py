@@ -47,6 +47,16 @@ class StrongerRelations:
             self._keys.append(self._key(links.target, links.anchor))
         return kept
 
+    def replace_support(self, support: list[Links], links: Links) -> list[Links]:
+        """Record `attached-to` links instead of the support of their targets, and return the `on` links left."""
+        is_moved = np.zeros(self._count, np.bool_)
+        is_moved[links.target] = True
+        moved = [self._key(found.target, found.anchor)[is_moved[found.target]] for found in support]
+        self._keys = [keys[~np.isin(keys, np.concatenate(moved))] for keys in self._keys]
+        self.supporter[is_moved] = -1
+        self.add_attached(links)
+        return [found.where(~is_moved[found.target]) for found in support]
+
     def add_attached(self, links: Links) -> Links:
         """Record `attached-to` links and return them."""
         self.is_attached[links.target] = True

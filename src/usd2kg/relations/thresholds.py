@@ -93,6 +93,7 @@ class InsideRule:
     min_surrounded: float
     min_walled: float
     min_cavity_depth: float
+    max_front_share: float
     max_buried: float
 
 
@@ -118,6 +119,8 @@ class AttachedRule:
     max_contact: float
     max_hanging_gap: float
     mount_preference: float
+    min_bearing_ratio: float
+    min_borne: float
     min_clearance: float
     max_plinth: float
     ground_reach: float
