@@ -52,6 +52,7 @@ SCENES = {
         ROOT / "benchmarks/scenes/island_kitchen/island_kitchen.usdc", (HERE / "judged/island_kitchen.csv",)
     ),
     "fzk_house": Sources(ASSIMP_MODELS / "IFC/AC14-FZK-Haus.ifc", (HERE / "judged/fzk_house.csv",)),
+    "warehouse": Sources(ROOT / "benchmarks/scenes/warehouse/warehouse.usda", (HERE / "judged/warehouse.csv",)),
 }
 
 
