@@ -217,6 +217,15 @@ class TestPartsInCavities:
 
 
 class TestContainers:
+    @pytest.mark.parametrize(("has_back", "kind"), [(True, "inside"), (False, "on")])
+    def test_a_rack_contains_only_with_sides_and_a_back(self, has_back: bool, kind: str):
+        # Four posts stop no rays; a back and two sides are three sides of four.
+        boards = [((0, 0, z), (1, 0.3, z + 0.02)) for z in (0.1, 0.5, 0.9)]
+        sides = [((0, 0, 0), (0.02, 0.3, 1)), ((0.98, 0, 0), (1, 0.3, 1)), ((0, 0.29, 0), (1, 0.3, 1))]
+        room = Room(FLOOR).mesh("rack", "Rack", boxes(*boards, *(sides if has_back else [])))
+        room.mesh("crate", "DesignedArtifact", boxes(((0.3, 0.05, 0.52), (0.6, 0.25, 0.75))))
+        assert room.of("crate") == {(kind, "rack")}
+
     def test_an_open_box_contains(self):
         room = Room(FLOOR).mesh("box", "Box", open_box(*BOX)).mesh("ball", "DesignedArtifact", boxes(BALL))
         assert room.of("ball") == {("inside", "box")}

@@ -162,7 +162,7 @@ def _surfaces_agree(
     some, rule = select_rows(pairs, known), rules.inside
     found = measure_enclosures(boxed, some.target, some.anchor)
     is_caged = (found.below < rule.min_below) & (found.caged >= rule.min_caged)
-    is_in = ((found.below >= rule.min_below) & (np.maximum(found.beside, found.above) >= rule.min_beside)) | is_caged
+    is_in = ((found.below >= rule.min_below) & (found.beside >= rule.min_beside)) | is_caged
     is_in &= (found.buried <= rule.max_buried) | ~is_open[some.anchor]
     is_around = np.minimum(np.minimum(found.below, found.above), found.beside) >= rule.min_surrounded
     depth = boxed.upper[some.anchor, 2] - boxed.lower[some.target, 2]
