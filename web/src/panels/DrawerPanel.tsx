@@ -51,6 +51,7 @@ export function DrawerPanel({ store }: { store: Store }) {
           type="button"
           class="quiet"
           aria-expanded={isDrawerOpen.value}
+          aria-label={isDrawerOpen.value ? "Close the tools" : "Open the tools"}
           title="Open or close (D)"
           onClick={() => (isDrawerOpen.value = !isDrawerOpen.value)}
         >

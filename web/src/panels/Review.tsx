@@ -46,10 +46,11 @@ function QueueList({ store }: { store: Store }) {
   const current = groups.findIndex((group) => group.id === store.group.value?.id);
   return (
     <div class="queue">
-      <div class="queue-order">
+      <div class="queue-tools">
         <label class="field">
-          Order
+          <span class="field-name">Order</span>
           <select
+            aria-label="Order"
             value={store.order.value}
             onChange={(event) => {
               showOrder(store, event.currentTarget.value as QueueOrder);
@@ -65,6 +66,14 @@ function QueueList({ store }: { store: Store }) {
         </label>
         <button type="button" aria-pressed={isAuditing(store)} onClick={() => toggleAudit(store)}>
           Audit <kbd>V</kbd>
+        </button>
+        <button
+          type="button"
+          title={store.model.data.limits.reground ?? "Ground the open objects with what the decisions teach"}
+          disabled={store.model.data.limits.reground !== undefined}
+          onClick={() => store.groundAgain()}
+        >
+          Ground again <kbd>R</kbd>
         </button>
       </div>
       {isAuditing(store) && <p class="audit-note">{auditText(store.queue.value?.audit)}</p>}
@@ -231,14 +240,6 @@ function Actions({ store, group }: { store: Store; group: QueueGroup }) {
       </button>
       <button type="button" onClick={() => (store.isBulkOpen.value = true)}>
         Many at once <kbd>B</kbd>
-      </button>
-      <button
-        type="button"
-        title={store.model.data.limits.reground ?? "Ground the open objects with what the decisions teach"}
-        disabled={store.model.data.limits.reground !== undefined}
-        onClick={() => store.groundAgain()}
-      >
-        Ground again <kbd>R</kbd>
       </button>
     </div>
   );

@@ -20,7 +20,7 @@ export function StatusBar({ store }: { store: Store }) {
   const saving = store.saving.value;
   return (
     <footer class="status-bar">
-      <span class={`saving ${saving}`} role="status">
+      <span class={`saving is-${saving}`} role="status">
         {SAVING[saving]}
       </span>
       <span
@@ -29,7 +29,6 @@ export function StatusBar({ store }: { store: Store }) {
       >
         {problem === "" ? folder : `Files not up to date: ${problem}`}
       </span>
-      <span class="space" />
       <span class="progress" role="progressbar" aria-valuenow={Math.round(100 * share)} aria-label="Decided">
         <span style={{ width: `${100 * share}%` }} />
       </span>
