@@ -3,7 +3,8 @@
 import { render } from "preact";
 import { ApiFailure, createClient, readKey, storeKey } from "./api/client";
 import { listen } from "./api/events";
-import type { ChangeEvent, SceneData, States, SuggestionsEvent } from "./api/types";
+import { requestScene } from "./api/opening";
+import type { ChangeEvent, SuggestionsEvent } from "./api/types";
 import { App } from "./panels/App";
 import { KeyForm } from "./panels/KeyForm";
 import { startWithComparison } from "./state/comparison";
@@ -20,12 +21,12 @@ async function start(): Promise<void> {
   const client = createClient(key);
   host.replaceChildren();
   try {
-    const [data, states] = await Promise.all([client.get<SceneData>("scene"), client.get<States>("states")]);
+    const [data, states] = await requestScene(client, localStorage);
     const store = new Store(client, data, states, localStorage);
     document.title = `${data.title} · usd2kg studio`;
     startWithComparison(store);
     render(<App store={store} />, host);
-    void store.reload();
+    void store.loadQueue();
     const handlers = {
       onChange: (change: ChangeEvent) => store.receive(change),
       onSuggestions: (event: SuggestionsEvent) => store.receiveSuggestions(event),

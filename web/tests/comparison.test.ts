@@ -1,6 +1,6 @@
 import { describe, expect, it, vi } from "vitest";
 import type { Client } from "../src/api/client";
-import type { Comparison, SceneChange } from "../src/api/types";
+import type { Comparison, SceneChange } from "../src/api/comparison";
 import {
   CHANGES,
   changeTexts,

@@ -6,9 +6,9 @@ from typing import NamedTuple
 
 from usd2kg.errors import OutputError
 
-__all__ = ["PAGE_POLICY", "AppFile", "read_app_files"]
+__all__ = ["AppFile", "read_app_files"]
 
-PAGE_POLICY = (
+_POLICY = (
     "default-src 'none'; script-src 'self'; style-src 'self'; img-src 'self' data: blob:; connect-src 'self' blob:; "
     "font-src 'self'; base-uri 'none'; form-action 'none'; frame-ancestors 'none'"
 )
@@ -24,11 +24,21 @@ _TYPES = {
 }
 
 
+_HASHED = "/assets/"
+"""Files below have the hash of their content in their name."""
+
+
 class AppFile(NamedTuple):
     """One file of the page."""
 
     content: bytes
     media_type: str
+
+    def headers(self, path: str) -> dict[str, str]:
+        """Return the headers of the response at a URL path."""
+        # A browser keeps compiled code with the cached file, so that the page starts faster the next time.
+        kept = {"Cache-Control": "private, max-age=31536000, immutable"} if path.startswith(_HASHED) else {}
+        return {"Content-Security-Policy": _POLICY, **kept}
 
 
 def read_app_files(page: str) -> dict[str, AppFile]:

@@ -14,7 +14,7 @@ from starlette.requests import ClientDisconnect, Request
 from starlette.responses import JSONResponse, PlainTextResponse, RedirectResponse, Response
 from starlette.routing import Route
 
-from usd2kg.endpoint.app_files import PAGE_POLICY, AppFile
+from usd2kg.endpoint.app_files import AppFile
 from usd2kg.endpoint.endpoint_limits import EndpointLimits
 from usd2kg.endpoint.example_queries import ExampleQuery
 from usd2kg.endpoint.guard import Guard
@@ -92,7 +92,7 @@ def make_app(
         file = files.get(request.url.path)
         if file is None:
             return PlainTextResponse(_NO_PAGE)
-        return Response(file.content, media_type=file.media_type, headers={"Content-Security-Policy": PAGE_POLICY})
+        return Response(file.content, media_type=file.media_type, headers=file.headers(request.url.path))
 
     async def show_about(_: Request) -> Response:
         return JSONResponse(about)

@@ -16,9 +16,9 @@ _HEADERS = {
     "Referrer-Policy": "no-referrer",
     "Cross-Origin-Opener-Policy": "same-origin",
     "Cache-Control": "no-store",
+    "Content-Security-Policy": "default-src 'none'; frame-ancestors 'none'",
 }
-_STRICT = "default-src 'none'; frame-ancestors 'none'"
-"""Content-Security-Policy of responses without their own."""
+"""Of responses without their own."""
 
 
 class Guard:
@@ -47,8 +47,7 @@ class Guard:
             if message["type"] == "http.response.start":
                 added = MutableHeaders(scope=message)
                 for name, value in _HEADERS.items():
-                    added[name] = value
-                added.setdefault("Content-Security-Policy", _STRICT)
+                    added.setdefault(name, value)
                 added["Cross-Origin-Resource-Policy"] = "cross-origin" if self._origins else "same-origin"
                 if origin is not None and is_shared:
                     added["Access-Control-Allow-Origin"] = "*" if "*" in self._origins else origin

@@ -13,7 +13,7 @@ from starlette.requests import Request
 from starlette.responses import JSONResponse, Response, StreamingResponse
 from starlette.routing import Route
 
-from usd2kg.endpoint.app_files import PAGE_POLICY, AppFile
+from usd2kg.endpoint.app_files import AppFile
 from usd2kg.endpoint.guard import Guard
 from usd2kg.errors import Usd2kgError
 from usd2kg.studio.access import KeyGate
@@ -71,15 +71,15 @@ def make_app(
         yield
         await asyncio.to_thread(api.close)
 
-    def serve_file(file: AppFile) -> Handler:
+    def serve_file(path: str, file: AppFile) -> Handler:
         async def serve(_: Request) -> Response:
-            return Response(file.content, media_type=file.media_type, headers={"Content-Security-Policy": PAGE_POLICY})
+            return Response(file.content, media_type=file.media_type, headers=file.headers(path))
 
         return serve
 
     app = Starlette(
         routes=[
-            *(Route(path, serve_file(file)) for path, file in files.items()),
+            *(Route(path, serve_file(path, file)) for path, file in files.items()),
             *(Route(f"/api{path}", _checked(handler), methods=[method]) for method, path, handler in api.routes()),
         ],
         middleware=[Middleware(Guard, hosts=tuple(hosts), origins=()), Middleware(KeyGate, key=key)],

@@ -12,8 +12,7 @@ function isTextField(target: EventTarget | null): boolean {
 
 /** Returns whether a key belongs to the focused control: Enter and Space on a button, arrows on a slider. */
 function isOfControl(target: EventTarget | null, key: string): boolean {
-  if (target instanceof HTMLButtonElement || target instanceof HTMLAnchorElement)
-    return key === "Enter" || key === "Space";
+  if (target instanceof HTMLElement && target.matches("button, a, summary")) return key === "Enter" || key === "Space";
   if (target instanceof HTMLInputElement && target.type === "range") return key.startsWith("Arrow");
   if (target instanceof HTMLInputElement) return key === "Space";
   return (

@@ -1,7 +1,7 @@
 /** Compare: what appeared, disappeared and changed since another version; a row selects its object. */
 
 import { useId } from "preact/hooks";
-import type { ChangeKind, Comparison, SceneChange } from "../api/types";
+import type { ChangeKind, Comparison, SceneChange } from "../api/comparison";
 import { CHANGES, type ComparisonState, changeTexts, comparisonOf } from "../state/comparison";
 import type { Store } from "../state/store";
 import { VirtualList } from "./VirtualList";

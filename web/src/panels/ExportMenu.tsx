@@ -2,6 +2,7 @@
 
 import { useState } from "preact/hooks";
 import type { Store } from "../state/store";
+import { Popover } from "./Popover";
 
 const EXPORTS: { name: string; label: string }[] = [
   { name: "graph.ttl", label: "Knowledge graph (Turtle)" },
@@ -32,24 +33,18 @@ export function ExportMenu({ store }: { store: Store }) {
     setBusy(false);
   };
   return (
-    <details class="popover">
-      <summary aria-label="Export">{isBusy ? "Exporting…" : "Export"}</summary>
-      <div>
-        {EXPORTS.map(({ name, label }) => (
-          <button
-            key={name}
-            type="button"
-            disabled={isBusy || (name === "labels.usda" && limits.labels !== undefined)}
-            title={name === "labels.usda" ? (limits.labels ?? "") : ""}
-            onClick={(event) => {
-              event.currentTarget.closest("details")?.removeAttribute("open");
-              void download(name);
-            }}
-          >
-            {label}
-          </button>
-        ))}
-      </div>
-    </details>
+    <Popover label={isBusy ? "Exporting…" : "Export"}>
+      {EXPORTS.map(({ name, label }) => (
+        <button
+          key={name}
+          type="button"
+          disabled={isBusy || (name === "labels.usda" && limits.labels !== undefined)}
+          title={name === "labels.usda" ? (limits.labels ?? "") : ""}
+          onClick={() => void download(name)}
+        >
+          {label}
+        </button>
+      ))}
+    </Popover>
   );
 }

@@ -7,6 +7,7 @@ import { openConcept } from "../state/concepts";
 import { classLabel, conceptLabel } from "../state/model";
 import { openProposal } from "../state/proposals";
 import type { Store } from "../state/store";
+import { Choice } from "./Choice";
 import { Thumbnail } from "./Thumbnail";
 import { VirtualList } from "./VirtualList";
 
@@ -47,23 +48,12 @@ function QueueList({ store }: { store: Store }) {
   return (
     <div class="queue">
       <div class="queue-tools">
-        <label class="field">
-          <span class="field-name">Order</span>
-          <select
-            aria-label="Order"
-            value={store.order.value}
-            onChange={(event) => {
-              showOrder(store, event.currentTarget.value as QueueOrder);
-              event.currentTarget.blur();
-            }}
-          >
-            {ordersOf(store).map(({ id, label }) => (
-              <option key={id} value={id}>
-                {label}
-              </option>
-            ))}
-          </select>
-        </label>
+        <Choice
+          label="Order"
+          options={ordersOf(store)}
+          value={store.order.value}
+          onChange={(order) => showOrder(store, order)}
+        />
         <button type="button" aria-pressed={isAuditing(store)} onClick={() => toggleAudit(store)}>
           Audit <kbd>V</kbd>
         </button>

@@ -18,9 +18,11 @@ export function Sidebar({ store }: { store: Store }) {
   return (
     <nav class="sidebar" aria-label="Scene">
       <Tabs tabs={TABS} current={tab} onChange={(id) => setTab(id)} />
-      {tab === "prims" && <PrimTree store={store} />}
-      {tab === "classes" && <ClassTree store={store} />}
-      {tab === "facets" && <Facets store={store} />}
+      <div class="sidebar-body" role="tabpanel" aria-labelledby={`tab-${tab}`}>
+        {tab === "prims" && <PrimTree store={store} />}
+        {tab === "classes" && <ClassTree store={store} />}
+        {tab === "facets" && <Facets store={store} />}
+      </div>
     </nav>
   );
 }

@@ -1,4 +1,4 @@
-/** A row of tabs; arrows move between them. */
+/** A row of tabs; arrows, Home and End move between them. */
 
 interface Props<T extends string> {
   tabs: readonly { id: T; label: string; count?: number }[];
@@ -7,16 +7,15 @@ interface Props<T extends string> {
 }
 
 export function Tabs<T extends string>({ tabs, current, onChange }: Props<T>) {
-  const move = (by: number) => {
-    const index = tabs.findIndex((tab) => tab.id === current);
-    const next = tabs[(index + by + tabs.length) % tabs.length];
+  const go = (index: number) => {
+    const next = tabs[(index + tabs.length) % tabs.length];
     if (next === undefined) return;
     onChange(next.id);
     document.getElementById(`tab-${next.id}`)?.focus();
   };
   return (
     <div class="tabs" role="tablist" data-own-keys>
-      {tabs.map(({ id, label, count }) => (
+      {tabs.map(({ id, label, count }, index) => (
         <button
           key={id}
           id={`tab-${id}`}
@@ -26,8 +25,10 @@ export function Tabs<T extends string>({ tabs, current, onChange }: Props<T>) {
           tabIndex={id === current ? 0 : -1}
           onClick={() => onChange(id)}
           onKeyDown={(event) => {
-            if (event.key === "ArrowRight") move(1);
-            else if (event.key === "ArrowLeft") move(-1);
+            if (event.key === "ArrowRight") go(index + 1);
+            else if (event.key === "ArrowLeft") go(index - 1);
+            else if (event.key === "Home") go(0);
+            else if (event.key === "End") go(-1);
             else return;
             event.preventDefault();
           }}

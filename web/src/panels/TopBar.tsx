@@ -1,9 +1,10 @@
 /** The bar at the top: search and facets, colours, views, undo, export. */
 
 import type { ViewCommands } from "../keys/bindings";
-import { COLOR_MODES, type ColorMode } from "../state/colors";
+import { COLOR_MODES } from "../state/colors";
 import { isFiltering, NO_FILTERS } from "../state/filters";
 import type { Store } from "../state/store";
+import { Choice } from "./Choice";
 import { ExportMenu } from "./ExportMenu";
 
 export function TopBar({ store, view }: { store: Store; view: ViewCommands }) {
@@ -27,23 +28,14 @@ export function TopBar({ store, view }: { store: Store; view: ViewCommands }) {
           </button>
         )}
       </div>
-      <label class="field">
-        Color by
-        <select
-          value={store.colorMode.value}
-          onChange={(event) => {
-            store.colorMode.value = event.currentTarget.value as ColorMode;
-            // The keys of the review work again at once.
-            event.currentTarget.blur();
-          }}
-        >
-          {COLOR_MODES.filter(({ id }) => id !== "change" || model.data.has_comparison).map(({ id, label }) => (
-            <option key={id} value={id}>
-              {label}
-            </option>
-          ))}
-        </select>
-      </label>
+      <Choice
+        label="Color by"
+        options={COLOR_MODES.filter(({ id }) => id !== "change" || model.data.has_comparison)}
+        value={store.colorMode.value}
+        onChange={(mode) => {
+          store.colorMode.value = mode;
+        }}
+      />
       <fieldset class="group" aria-label="View">
         <button type="button" title="Look at everything (A)" onClick={view.frameAll}>
           All

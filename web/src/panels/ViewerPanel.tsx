@@ -14,6 +14,7 @@ import { annotate } from "../viewer/annotations";
 import { appearanceOf, MAX_WATCHED, occluders } from "../viewer/appearance";
 import { loadGeometry } from "../viewer/loading";
 import { Viewer } from "../viewer/viewer";
+import { Popover } from "./Popover";
 
 export function ViewerPanel({ store, view }: { store: Store; view: { current: ViewCommands | null } }) {
   const host = useRef<HTMLDivElement>(null);
@@ -193,18 +194,15 @@ function Relations({ store }: { store: Store }) {
     relationKinds.value = chosen;
   };
   return (
-    <details class="popover">
-      <summary>Relations</summary>
-      <div>
-        {store.model.data.relation_kinds.map(({ kind, count }) => (
-          <label key={kind} class="facet">
-            <input type="checkbox" checked={relationKinds.value.has(kind)} onChange={() => toggle(kind)} />
-            <span class="name">{kind}</span>
-            <span class="count">{count}</span>
-          </label>
-        ))}
-      </div>
-    </details>
+    <Popover label="Relations">
+      {store.model.data.relation_kinds.map(({ kind, count }) => (
+        <label key={kind} class="facet">
+          <input type="checkbox" checked={relationKinds.value.has(kind)} onChange={() => toggle(kind)} />
+          <span class="name">{kind}</span>
+          <span class="count">{count}</span>
+        </label>
+      ))}
+    </Popover>
   );
 }
 

@@ -1,7 +1,7 @@
 /** The comparison with another version: loaded anew after decisions, filtered by kind, and as colours. */
 
 import { batch, computed, effect, type ReadonlySignal, signal } from "@preact/signals";
-import type { ChangeKind, ClassClaim, Comparison, SceneChange } from "../api/types";
+import type { ChangeKind, ClassClaim, Comparison, SceneChange } from "../api/comparison";
 import type { Ghost } from "../viewer/ghosts";
 import { type Coloring, fill, type LegendEntry, type Rgb, rgb } from "./colors";
 import { REST } from "./palette";

@@ -22,12 +22,13 @@ export interface SceneModel {
 
 export function buildModel(data: SceneData): SceneModel {
   const { path, name } = data.objects;
+  const short = shortNames(name);
   const classChildren = invert(data.classes.map((cls) => cls.parents));
   return {
     data,
     count: path.length,
-    prims: buildPrimTree(path, shortNames(name)),
-    shortNames: shortNames(name),
+    prims: buildPrimTree(path, short),
+    shortNames: short,
     classChildren,
     classRoots: indices(data.classes.length).filter((index) => data.classes[index]?.parents.length === 0),
     classClosure: closures(classChildren),

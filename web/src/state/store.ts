@@ -25,6 +25,7 @@ import { type Filters, filterObjects, isFiltering, NO_FILTERS } from "./filters"
 import { buildModel, classLabel, conceptLabel, type SceneModel } from "./model";
 import { findAgain, groupAfter, withoutObjects } from "./queue";
 import { isOpen, predictStates } from "./review";
+import { storedReviewer, storeReviewer } from "./reviewer";
 import { StateTable } from "./stateTable";
 
 export type Saving = "saved" | "saving" | "failed" | "offline";
@@ -40,7 +41,6 @@ interface Notice {
 }
 
 const MAX_FRAMED = 200;
-const REVIEWER = "usd2kg-reviewer";
 /** A key pressed so soon after the queue moved by itself was meant for the group before. */
 const MOVED_MS = 800;
 
@@ -141,14 +141,14 @@ export class Store {
     this.canUndo.value = states.can_undo;
     this.canRedo.value = states.can_redo;
     this.outputs.value = states.outputs;
-    this.reviewer = signal(storage.getItem(REVIEWER) ?? data.reviewer);
+    this.reviewer = signal(storedReviewer(storage) ?? data.reviewer);
   }
 
   setReviewer(name: string): void {
     const trimmed = name.trim();
     if (trimmed === "" || trimmed === this.reviewer.value) return;
     this.reviewer.value = trimmed;
-    this.storage.setItem(REVIEWER, trimmed);
+    storeReviewer(trimmed, this.storage);
     void this.reload();
   }
 

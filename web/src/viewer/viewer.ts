@@ -71,6 +71,7 @@ export class Viewer {
   private request = 0;
   private hoverTimer = 0;
   private pressed = new Vector2();
+  private readonly size = new Vector2();
 
   /** Throws if the browser has no WebGL 2. */
   constructor(
@@ -255,6 +256,9 @@ export class Viewer {
   private resize(): void {
     const { clientWidth, clientHeight } = this.host;
     if (clientWidth === 0 || clientHeight === 0) return;
+    // The observer reports the first size, too, and a new drawing buffer takes tens of milliseconds.
+    if (this.size.width === clientWidth && this.size.height === clientHeight) return;
+    this.size.set(clientWidth, clientHeight);
     this.renderer.setSize(clientWidth, clientHeight);
     this.cameras.resize(clientWidth, clientHeight);
   }
