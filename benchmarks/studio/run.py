@@ -41,12 +41,53 @@ ORBIT = """frames => {
 }"""
 
 
+BLANK = """<canvas></canvas><script>
+  const gl = document.querySelector("canvas").getContext("webgl2", { antialias: true });
+  gl.clear(gl.COLOR_BUFFER_BIT);
+</script>"""
+TWO_FRAMES = "new Promise((resolve) => requestAnimationFrame(() => requestAnimationFrame(resolve)))"
+REPEATS = 5
+
+
+def new_page(browser: Browser) -> Page:
+    """Return an empty page."""
+    return browser.new_page(viewport={"width": 1440, "height": 900}, bypass_csp=True)
+
+
 def open_page(browser: Browser, address: str) -> Page:
     """Open the page and wait for the first picture."""
-    page = browser.new_page(viewport={"width": 1440, "height": 900}, bypass_csp=True)
+    page = new_page(browser)
     page.goto(f"{address}#token={KEY}")
     page.wait_for_function("window.studioViewer?.frameMs > 0", timeout=60_000)
     return page
+
+
+def open_blank(browser: Browser) -> None:
+    """Show a page with nothing but an empty WebGL canvas."""
+    page = new_page(browser)
+    page.set_content(BLANK)
+    page.evaluate(TWO_FRAMES)
+
+
+def seconds(call: Callable[[], Any]) -> float:
+    """Return how long a call takes."""
+    start = time.perf_counter()
+    call()
+    return time.perf_counter() - start
+
+
+def measure_start(launch: Callable[[], Browser], scene: Path) -> None:
+    """Print seconds to the first picture in a new browser and in one that runs, and to that of a blank page."""
+    fresh, running, blank = [], [], []
+    with studio(scene) as address:
+        for _ in range(REPEATS):
+            with launch() as browser:
+                fresh.append(seconds(partial(open_page, browser, address)))
+            with launch() as browser:
+                blank.append(seconds(partial(open_blank, browser)))
+                running.append(seconds(partial(open_page, browser, address)))
+    for name, times in {"new browser": fresh, "running browser": running, "blank page, new browser": blank}.items():
+        print(f"First picture, {name}: median {statistics.median(times):.2f} s, least {min(times):.2f} s")
 
 
 def measure_view(launch: Callable[[], Browser], scene: Path, name: str) -> None:
@@ -182,6 +223,7 @@ def main() -> None:
             stage = Path(folder) / f"flats{objects}.usdc"
             write_place(stage, "flats", objects)
             measure_view(launch, stage, f"flats, {objects:,} objects")
+        measure_start(launch, demo_scene())
         measure_decisions(demo_scene())
         if options.gold:
             print("| scene | objects | right | groups | confirmed at once | one by one | keys | keys per 125 objects |")
