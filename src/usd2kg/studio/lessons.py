@@ -2,7 +2,7 @@
 
 If reviewers gave all objects of one concept the same class, the concept belongs to that class. An object without a
 concept teaches the same about the words of its name. A reviewer can also decide about a concept: then exceptions among
-its objects teach nothing else.
+its objects teach nothing else. Where no class fits, the concept does not belong to the classes that were suggested.
 """
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
@@ -11,7 +11,9 @@ from dataclasses import dataclass, replace
 from usd2kg.grounding import Decision, Grounding
 from usd2kg.grounding.lexical.alignment.alignment_rows import AlignmentRow, RowKind, format_rows
 from usd2kg.grounding.lexical.alignment.artificial_root import NO_CLASS_IRI
+from usd2kg.grounding.lexical.alignment.residual_class import find_default_class
 from usd2kg.grounding.lexical.alignment.terms import TermKind
+from usd2kg.grounding.lexical.concepts.taxonomy import Taxonomy, load_taxonomy
 from usd2kg.ontology import ClassIRI, TBox
 from usd2kg.scene import Scene
 from usd2kg.studio.verdicts import Event
@@ -35,6 +37,8 @@ class Lesson:
     """Who decided, sorted."""
     is_direct: bool = False
     """Whether a person decided about the concept, not only about its objects."""
+    rejected: tuple[ClassIRI, ...] = ()
+    """If no class fits, the classes that were suggested, sorted."""
 
 
 def find_lessons(
@@ -50,6 +54,7 @@ def find_lessons(
     """
     direct = {lesson.concept: lesson for event in standing if event.concept for lesson in [_direct(event, suggestions)]}
     taught: dict[tuple[str, str], list[Decision]] = {}
+    suggested: dict[tuple[str, str], set[ClassIRI]] = {}
     for prediction in suggestions.predictions:
         made = decisions.get(prediction.prim_path)
         if made is None:
@@ -59,9 +64,16 @@ def find_lessons(
         key = (concept.iri, concept.label) if concept is not None else ("", " ".join(words).lower())
         if key[1] and key[0] not in direct:
             taught.setdefault(key, []).append(made)
+            suggested.setdefault(key, set()).update(filter(None, [prediction.class_iri]))
     lessons = [
-        Lesson(iri, label, found[0].class_iri, len(found), tuple(sorted({made.reviewer for made in found})))
-        for (iri, label), found in taught.items()
+        Lesson(
+            *key,
+            found[0].class_iri,
+            len(found),
+            tuple(sorted({made.reviewer for made in found})),
+            rejected=() if found[0].class_iri is not None else tuple(sorted(suggested[key])),
+        )
+        for key, found in taught.items()
         if len({made.class_iri for made in found}) == 1
     ]
     return sorted([*direct.values(), *lessons], key=lambda lesson: (lesson.label, lesson.concept))
@@ -82,15 +94,19 @@ def _direct(event: Event, suggestions: Grounding) -> Lesson:
 
 def format_lessons(lessons: Iterable[Lesson], tbox: TBox) -> str:
     """Return the lessons as SSSOM/TSV, an input of `--alignment` that changes the alignment that is built."""
-    rows: dict[tuple[RowKind, str], AlignmentRow] = {}
+    taxonomy = load_taxonomy()
+    # Everything belongs to a general class, so that an alignment can only state what a concept is not.
+    has_general = find_default_class(tbox, taxonomy) is not None
+    rows: dict[tuple[RowKind, str, ClassIRI | None], AlignmentRow] = {}
     # Of two rows about one word, that of a decision about a concept counts.
     for lesson in sorted(lessons, key=lambda lesson: not lesson.is_direct):
-        for row in _rows(lesson):
-            rows.setdefault((row.kind, row.subject), row)
+        is_negated = lesson.class_iri is None and has_general
+        for row in _negated_rows(lesson, taxonomy) if is_negated else _rows(lesson, lesson.class_iri or NO_CLASS_IRI):
+            rows.setdefault((row.kind, row.subject, row.class_iri if row.is_negated else None), row)
     return format_rows([*rows.values()], tbox)
 
 
-def _rows(lesson: Lesson) -> Iterator[AlignmentRow]:
+def _rows(lesson: Lesson, class_iri: ClassIRI) -> Iterator[AlignmentRow]:
     """Yield the row for a concept, if there is one, and that for its noun.
 
     The noun may be the label of another class, which a row for the concept alone does not change.
@@ -99,7 +115,7 @@ def _rows(lesson: Lesson) -> Iterator[AlignmentRow]:
     row = AlignmentRow(
         RowKind.TERM,
         lesson.label,
-        lesson.class_iri or NO_CLASS_IRI,
+        class_iri,
         confidence=1.0,
         label=lesson.label,
         reason=f"decided for the concept, with {objects}" if lesson.is_direct else f"decided for {objects}",
@@ -111,3 +127,13 @@ def _rows(lesson: Lesson) -> Iterator[AlignmentRow]:
         yield replace(row, kind=RowKind.CONCEPT, subject=lesson.concept)
     if lesson.label:
         yield row
+
+
+def _negated_rows(lesson: Lesson, taxonomy: Taxonomy) -> Iterator[AlignmentRow]:
+    """Yield a row for the concept, its noun and the other senses of the noun, which may lead to the same class."""
+    senses = [taxonomy.concept_iri(sense.synset) for sense in taxonomy.senses(lesson.label)]
+    for class_iri in lesson.rejected:
+        for row in _rows(lesson, class_iri):
+            subjects = senses if row.kind is RowKind.CONCEPT else [row.subject]
+            for subject in dict.fromkeys([row.subject, *subjects]):
+                yield replace(row, subject=subject, is_negated=True)

@@ -175,8 +175,14 @@ class StudioSession:
         if not self._learns():
             given = self.project.sources.mapping or self.project.sources.alignment
             raise GroundingError(f"the suggestions come from {given}; only those of the built alignment can be learned")
-        write_whole(self.project.applied_lessons, format_lessons(self.lessons(), self.tbox).encode())
-        renewed = self._ground_with_lessons()
+        # Lessons that cannot be applied would keep the project from being opened again.
+        tried = self.project.applied_lessons.with_suffix(".tried.tsv")
+        write_whole(tried, format_lessons(self.lessons(), self.tbox).encode())
+        try:
+            renewed = self._ground_with_lessons(tried)
+            tried.replace(self.project.applied_lessons)
+        finally:
+            tried.unlink(missing_ok=True)
         with self._lock:
             before = self.suggestions
             self.suggestions = self._merge_open(before, renewed)
@@ -187,16 +193,17 @@ class StudioSession:
     def apply_kept_lessons(self) -> None:
         """Apply the lessons that `ground_again` has kept in the project, if there are any."""
         if self.project.applied_lessons.exists() and self._learns():
-            self.suggestions = self._merge_open(self.suggestions, self._ground_with_lessons())
+            renewed = self._ground_with_lessons(self.project.applied_lessons)
+            self.suggestions = self._merge_open(self.suggestions, renewed)
 
     def _learns(self) -> bool:
         """Return whether the suggestions come from the alignment that is built, which lessons can change."""
         return self.project.sources.mapping is None and self.project.sources.alignment is None
 
-    def _ground_with_lessons(self) -> Grounding:
-        """Return the grounding of the open objects by the alignment and the lessons of the project."""
+    def _ground_with_lessons(self, lessons: Path) -> Grounding:
+        """Return the grounding of the open objects by the alignment and the lessons of a file."""
         decided = self.review.decisions()
-        grounder = make_grounder("lexical", alignment=self.project.applied_lessons)
+        grounder = make_grounder("lexical", alignment=lessons)
         still_open = [p.prim_path for p in self.suggestions.predictions if p.prim_path not in decided]
         return ground(self.scene, self.tbox, grounder, paths=still_open)
 
