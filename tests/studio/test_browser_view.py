@@ -114,3 +114,41 @@ def test_without_an_image_the_display_colour_is_shown(browser: Browser, board: P
         assert share(pixels, RED) > 0.02
         assert share(pixels, BLUE) < 0.01
         close_page(page)
+
+
+def test_the_first_picture_shows_the_scene_without_a_distant_outlier(browser: Browser, tmp_path: Path) -> None:
+    cubes = [
+        f"""def Cube "Box_{number}" (kind = "component") {{
+        double size = 0.5
+        color3f[] primvars:displayColor = [(1, 0, 0)]
+        double3 xformOp:translate = ({number % 4}, {number // 4}, {343_582 if number == 5 else 0})
+        uniform token[] xformOpOrder = ["xformOp:translate"]
+    }}"""
+        for number in range(16)
+    ]
+    header = '#usda 1.0\n(\n    metersPerUnit = 1\n    upAxis = "Z"\n)\n'
+    scene = tmp_path / "shelf.usda"
+    scene.write_text(header + 'def Xform "Shelf" (kind = "group")\n{\n    ' + "\n    ".join(cubes) + "\n}\n", "utf-8")
+    with running_studio(scene, tmp_path / "project") as studio:
+        page = open_page(browser, studio)
+        assert share(view_of(page), RED) > 0.02
+        # The group under review has the outlier, too.
+        page.keyboard.press("j")
+        page.keyboard.press("k")
+        page.wait_for_timeout(600)
+        assert share(view_of(page), RED) > 0.02
+        close_page(page)
+
+
+def test_messages_do_not_cover_the_review(browser: Browser, stage: Path, tmp_path: Path) -> None:
+    with running_studio(stage, tmp_path / "project") as studio:
+        page = open_page(browser, studio)
+        page.keyboard.press("q")
+        notice = page.locator(".notice")
+        expect(notice).to_be_visible()
+        box, picture = notice.bounding_box(), page.locator(".viewer").bounding_box()
+        assert box is not None
+        assert picture is not None
+        assert picture["y"] <= box["y"]
+        assert box["y"] + box["height"] <= picture["y"] + picture["height"]
+        close_page(page)

@@ -30,6 +30,7 @@ export function makeScene(): SceneData {
       asset: [0, 1, 1, 0],
       assets: ["", "cup"],
       color: [null, [1, 0, 0], null, null],
+      is_outlier: [false, false, false, false],
       shell: ["", "", "", "wall"],
       mount: [-1, -1, -1, -1],
     },

@@ -6,6 +6,7 @@ from typing import Any
 from usd2kg.graph.vocabulary import SOMA
 from usd2kg.relations.object_kinds import ObjectKind, find_kinds
 from usd2kg.scene import SceneObject
+from usd2kg.scene.sanity_checks import find_outliers
 from usd2kg.studio.object_review import ObjectReview
 from usd2kg.studio.page_indices import NONE, PageIndices
 from usd2kg.studio.session import StudioSession
@@ -58,6 +59,7 @@ def scene_json(session: StudioSession, indices: PageIndices, reviewer: str) -> d
 def _objects(session: StudioSession, indices: PageIndices) -> dict[str, Any]:
     objects = indices.scene.objects
     mounts = {relation.target: relation.anchor for relation in session.relations if relation.kind == "attached-to"}
+    outliers = find_outliers(session.scene)
     assets = {name: number for number, name in enumerate(dict.fromkeys(map(_asset, objects)))}
     return {
         "path": [obj.prim_path for obj in objects],
@@ -67,6 +69,7 @@ def _objects(session: StudioSession, indices: PageIndices) -> dict[str, Any]:
         "turned": [_turned(obj) for obj in objects],
         "room": [indices.room_of.get(obj.prim_path, NONE) for obj in objects],
         "rooms": [path.rpartition("/")[2] for path in indices.rooms],
+        "is_outlier": [obj.prim_path in outliers for obj in objects],
         "asset": [assets[_asset(obj)] for obj in objects],
         "assets": list(assets),
         "color": [obj.display_color for obj in objects],

@@ -58,6 +58,8 @@ export interface ObjectColumns {
   /** Room or group prim that holds it, as an index into `rooms`. */
   room: number[];
   rooms: string[];
+  /** Whether it is far from all others, or surrounds the scene like a sky dome. */
+  is_outlier: boolean[];
   /** Index into `assets`. */
   asset: number[];
   assets: string[];

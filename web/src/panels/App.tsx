@@ -47,6 +47,7 @@ export function App({ store }: { store: Store }) {
         <ObjectPanel store={store} />
         <DrawerPanel store={store} />
         <StatusBar store={store} />
+        <Notices store={store} />
       </div>
       {store.isHelpOpen.value && <Help store={store} />}
       {store.isClassSearchOpen.value && <ClassSearch store={store} />}
@@ -54,7 +55,6 @@ export function App({ store }: { store: Store }) {
       {store.isConceptOpen.value && <ConceptDialog store={store} />}
       {store.isProposalOpen.value && <ProposalDialog store={store} />}
       {store.changes.value !== null && <ChangesDialog store={store} changes={store.changes.value} />}
-      <Notices store={store} />
     </Thumbnails.Provider>
   );
 }

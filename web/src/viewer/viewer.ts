@@ -15,7 +15,9 @@ import {
   WebGLRenderer,
 } from "three";
 import type { Box, ObjectIndex, SceneData, TextureUse } from "../api/types";
+import { indices } from "../state/model";
 import type { Eye } from "./appearance";
+import { boundsOf } from "./bounds";
 import { BoxBatch } from "./boxes";
 import { Cameras, type ViewName } from "./cameras";
 import { type Ghost, GhostBoxes } from "./ghosts";
@@ -197,15 +199,8 @@ export class Viewer {
   }
 
   private boundsOf(objects: readonly ObjectIndex[] | null): Box3 {
-    const bounds = new Box3();
-    const add = (box: Box | null | undefined) => {
-      if (box == null) return;
-      bounds.expandByPoint(new Vector3(box[0], box[1], box[2]));
-      bounds.expandByPoint(new Vector3(box[3], box[4], box[5]));
-    };
-    if (objects === null) this.data.objects.box.forEach(add);
-    else for (const object of objects) add(this.data.objects.box[object]);
-    return bounds;
+    const columns = this.data.objects;
+    return boundsOf(columns, objects ?? indices(columns.path.length));
   }
 
   private listen(canvas: HTMLCanvasElement): void {
