@@ -80,6 +80,8 @@ def shared(stage: Path, tmp_path_factory: pytest.TempPathFactory) -> Iterator[Cl
 @pytest.fixture(scope="module")
 def page(browser: Browser, shared: Client) -> Iterator[Page]:
     found = open_page(browser, shared, LONG_REVIEWER)
+    # The legend is in the picture, as the switches are.
+    found.get_by_label("Color by").select_option("class")
     yield found
     close_page(found)
 

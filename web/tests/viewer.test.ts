@@ -1,9 +1,10 @@
 import { Raycaster, Vector3 } from "three";
 import { describe, expect, it } from "vitest";
 import { ApiFailure, type Client } from "../src/api/client";
-import { ThumbnailCache } from "../src/panels/Thumbnail";
+import { missingPicture, ThumbnailCache } from "../src/panels/Thumbnail";
 import { BoxBatch, boxMatrix } from "../src/viewer/boxes";
 import type { Appearance } from "../src/viewer/meshes";
+import { makeScene } from "./scene";
 
 const PLAIN: Appearance = { isVisible: true, color: null, opacity: 1 };
 
@@ -52,13 +53,25 @@ describe("thumbnails", () => {
       if (failure !== undefined) throw failure;
       return new Blob(["png"]);
     };
-    return { cache: new ThumbnailCache({ blob } as unknown as Client), count: () => requests };
+    return {
+      cache: new ThumbnailCache({ blob } as unknown as Client, (object) => (object === 9 ? "box only" : "")),
+      count: () => requests,
+    };
   };
 
   it("are asked for once", async () => {
     const { cache, count } = cacheOf([]);
     const [one, two] = await Promise.all([cache.get(1), cache.get(1)]);
     expect([one, count()]).toEqual([two, 1]);
+  });
+
+  it("are not asked for where there is nothing to render", async () => {
+    const { cache, count } = cacheOf([]);
+    expect([await cache.get(9), count()]).toEqual([{ problem: "box only" }, 0]);
+    const data = makeScene();
+    data.objects.box[1] = null;
+    expect([0, 1].map((object) => missingPicture(data, object))).toEqual(["", "no geometry"]);
+    expect(missingPicture({ ...data, limits: { meshes: "no stage" } }, 0)).toBe("box only");
   });
 
   it("tell an object without geometry from a failed request, which is tried again", async () => {

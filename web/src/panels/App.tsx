@@ -15,7 +15,7 @@ import { ObjectPanel } from "./ObjectPanel";
 import { ProposalDialog } from "./ProposalDialog";
 import { Sidebar } from "./Sidebar";
 import { StatusBar } from "./StatusBar";
-import { ThumbnailCache, Thumbnails } from "./Thumbnail";
+import { missingPicture, ThumbnailCache, Thumbnails } from "./Thumbnail";
 import { TopBar } from "./TopBar";
 import { ViewerPanel } from "./ViewerPanel";
 
@@ -30,7 +30,7 @@ export function App({ store }: { store: Store }) {
     [],
   );
   const thumbnails = useMemo(
-    () => new ThumbnailCache(store.client, store.model.data.limits.meshes === undefined),
+    () => new ThumbnailCache(store.client, (object) => missingPicture(store.model.data, object)),
     [store],
   );
   useEffect(() => {

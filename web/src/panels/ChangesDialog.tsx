@@ -11,7 +11,7 @@ export function ChangesDialog({ store, changes }: { store: Store; changes: Regro
     store.changes.value = null;
   };
   return (
-    <Dialog title={`${changes.length} suggestions changed`} onClose={close}>
+    <Dialog title={`${changes.length} ${changes.length === 1 ? "suggestion" : "suggestions"} changed`} onClose={close}>
       {changes.length === 0 && <p class="empty">The decisions so far teach nothing new about the open objects.</p>}
       <ul class="changes">
         {changes.map(({ object, before, after, reason }) => (

@@ -3,7 +3,7 @@
 import { createContext } from "preact";
 import { useContext, useEffect, useRef, useState } from "preact/hooks";
 import { ApiFailure, type Client } from "../api/client";
-import type { ObjectIndex } from "../api/types";
+import type { ObjectIndex, SceneData } from "../api/types";
 
 const MAX_REQUESTS = 4;
 
@@ -15,22 +15,23 @@ export class ThumbnailCache {
   private readonly waiting: (() => void)[] = [];
   private running = 0;
 
-  /** @param hasPictures whether there is a stage to render. */
+  /** @param missing why there is no picture of an object; empty if the server can render one. */
   constructor(
     private readonly client: Client,
-    private readonly hasPictures = true,
+    private readonly missing: (object: ObjectIndex) => string,
   ) {}
 
   /** Returns the address of a picture, or why there is none. */
   get(object: ObjectIndex): Promise<Picture> {
-    if (!this.hasPictures) return Promise.resolve({ problem: "box only" });
+    const problem = this.missing(object);
+    if (problem !== "") return Promise.resolve({ problem });
     const known = this.urls.get(object);
     if (known !== undefined) return known;
     const url = new Promise<Picture>((resolve) => {
       this.waiting.push(() => {
         this.client.blob(`thumbnail/${object}.png`).then(
           (blob) => this.finish(() => resolve({ url: URL.createObjectURL(blob) })),
-          (error: unknown) => this.finish(() => resolve(this.missing(object, error))),
+          (error: unknown) => this.finish(() => resolve(this.fail(object, error))),
         );
       });
     });
@@ -39,8 +40,8 @@ export class ThumbnailCache {
     return url;
   }
 
-  /** The server refuses a picture of what has no geometry; anything else is worth another try. */
-  private missing(object: ObjectIndex, error: unknown): Picture {
+  /** The server refuses a picture of what has no visible geometry; anything else is worth another try. */
+  private fail(object: ObjectIndex, error: unknown): Picture {
     const isRefused = error instanceof ApiFailure && error.status >= 400 && error.status < 500;
     if (isRefused) return { problem: "no geometry" };
     this.urls.delete(object);
@@ -59,6 +60,12 @@ export class ThumbnailCache {
       this.waiting.pop()?.();
     }
   }
+}
+
+/** Returns why the server cannot render an object; empty if it can. */
+export function missingPicture({ limits, objects }: SceneData, object: ObjectIndex): string {
+  if (limits.meshes !== undefined) return "box only";
+  return objects.box[object] == null ? "no geometry" : "";
 }
 
 export const Thumbnails = createContext<ThumbnailCache | null>(null);
