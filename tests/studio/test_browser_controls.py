@@ -116,3 +116,71 @@ def test_the_page_asks_once_for_what_it_shows(browser: Browser, shared: Client) 
     assert {size for name, size in sizes.items() if name.startswith("assets/")} == {0}
     assert sizes["api/scene"] > 0
     page.close()
+
+
+FOCUSED = """() => {
+  const element = document.activeElement;
+  const style = getComputedStyle(element);
+  const labels = [...(element.labels ?? [])].map((label) => label.textContent).join(" ");
+  return {
+    tag: element.tagName,
+    name: (element.getAttribute("aria-label") || labels || element.textContent || element.title || "").trim(),
+    outline: style.outlineStyle === "none" ? 0 : parseFloat(style.outlineWidth),
+  };
+}"""
+
+
+def test_tab_reaches_named_controls_with_a_visible_focus(page: Page) -> None:
+    page.locator(".top-bar h1").click()
+    seen = set()
+    for _ in range(80):
+        page.keyboard.press("Tab")
+        found = page.evaluate(FOCUSED)
+        if found["tag"] == "BODY":
+            break
+        assert found["name"], found
+        assert found["outline"] >= 1, found
+        seen.add(found["name"].split("\n")[0])
+    controls = {"Filter objects", "Color by", "Export", "Prims", "Cutaway", "Relations", "Order", "Reviewer"}
+    assert controls <= seen, controls - seen
+    assert any(name.startswith("Confirm") for name in seen), seen
+
+
+def test_with_reduced_motion_the_camera_does_not_fly(browser: Browser, shared: Client) -> None:
+    context = browser.new_context(reduced_motion="reduce")
+    page = context.new_page()
+    page.goto(f"{shared.address}#token={KEY}")
+    page.wait_for_selector("html[data-geometry=loaded]")
+    position = "window.studioViewer.cameras.active.position.toArray()"
+    # The keys act in the same task as the jump.
+    moved = page.evaluate(
+        f"""() => {{
+          const before = {position};
+          dispatchEvent(new KeyboardEvent("keydown", {{ key: "j", bubbles: true }}));
+          const after = {position};
+          return new Promise((resolve) => setTimeout(() => resolve([before, after, {position}]), 500));
+        }}"""
+    )
+    assert moved[0] != moved[1] == moved[2]
+    assert page.evaluate("document.getAnimations().length") == 0
+    context.close()
+
+
+def test_reviewers_who_disagree_are_shown_settled_and_counted(browser: Browser, stage: Path, tmp_path: Path) -> None:
+    with running_studio(stage, tmp_path / "project") as client:
+        table = client.ask("api/scene").json()["objects"]["path"].index("/Kitchen/Table")
+        for reviewer, action in (("Ann", "confirm"), ("Bob", "no-class")):
+            # Neither has seen the other.
+            body = {"objects": [table], "action": action, "reviewer": reviewer, "seen": 0}
+            assert client.ask("api/decisions", body).status == 200
+        page = open_page(browser, client, "Cleo")
+        page.locator(".tree-row", has_text="Table").click()
+        expect(page.locator(".conflict")).to_contain_text("Reviewers disagree")
+        expect(page.locator(".history li")).to_have_count(2)
+        page.keyboard.press("1")
+        expect(page.locator(".conflict")).to_have_count(0)
+        expect(page.locator(".history li").last).to_contain_text("by Cleo")
+        page.locator("#tab-run").click()
+        expect(page.locator(".drawer-body")).to_contain_text("Agreement of Ann and Bob")
+        expect(page.locator(".drawer-body")).to_contain_text("0 of 1")
+        close_page(page)
