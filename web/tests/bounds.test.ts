@@ -11,7 +11,7 @@ describe("bounds", () => {
   };
 
   it("leave out outliers and objects without geometry", () => {
-    const { min, max } = boundsOf(columns, [0, 1, 2, 3]);
+    const { min, max } = boundsOf(columns);
     expect([min.toArray(), max.toArray()]).toEqual([
       [-0.5, -0.5, -0.5],
       [4.5, 3.5, 0.5],

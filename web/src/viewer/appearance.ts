@@ -4,6 +4,7 @@ import { Box3, Ray, Vector3 } from "three";
 import type { Box, ObjectIndex, SceneData } from "../api/types";
 import type { Rgb } from "../state/colors";
 import type { Store } from "../state/store";
+import { boundsOf } from "./bounds";
 import type { Appearance } from "./meshes";
 
 /** The viewer: position, and unit vector from the scene to there. */
@@ -58,12 +59,10 @@ function holdersOf(data: SceneData): Set<ObjectIndex> {
 }
 
 /** Returns the objects that hold others: their parents, and large boxes around the middles of several others. */
-export function findHolders({ objects: { box, parent } }: SceneData): Set<ObjectIndex> {
-  const holders = new Set(parent);
-  const scene = new Box3();
-  const boxes = box.map((own) => (own === null ? null : asBox3(own)));
-  for (const own of boxes) if (own !== null) scene.union(own);
-  const least = MIN_HOLDER_SHARE * volume(scene);
+export function findHolders({ objects }: SceneData): Set<ObjectIndex> {
+  const holders = new Set(objects.parent);
+  const boxes = objects.box.map((own) => (own === null ? null : asBox3(own)));
+  const least = MIN_HOLDER_SHARE * volume(boundsOf(objects));
   const middles = boxes.map((own) => own?.getCenter(new Vector3()) ?? null);
   boxes.forEach((own, object) => {
     if (own === null || volume(own) < least) return;
@@ -89,13 +88,13 @@ const MIN_COSINE = 0.15;
 export function cutAway(data: SceneData, direction: Pick<Vector3, "x" | "y">): Set<ObjectIndex> {
   const { shell, box, mount } = data.objects;
   const hidden = new Set<ObjectIndex>();
-  const center = middle(box);
+  const center = boundsOf(data.objects).getCenter(new Vector3());
   const length = Math.hypot(direction.x, direction.y) || 1;
   shell.forEach((kind, object) => {
     const own = box[object];
     if (kind === "ceiling") hidden.add(object);
     if (kind !== "wall" || own == null) return;
-    const [x, y] = [(own[0] + own[3]) / 2 - center[0], (own[1] + own[4]) / 2 - center[1]];
+    const [x, y] = [(own[0] + own[3]) / 2 - center.x, (own[1] + own[4]) / 2 - center.y];
     const isThinX = own[3] - own[0] < own[4] - own[1];
     // The outside of a wall is along its thin side, away from the middle.
     const cosine = (isThinX ? Math.sign(x) * direction.x : Math.sign(y) * direction.y) / length;
@@ -105,16 +104,6 @@ export function cutAway(data: SceneData, direction: Pick<Vector3, "x" | "y">): S
     if (wall >= 0 && shell[wall] === "wall" && hidden.has(wall)) hidden.add(object);
   });
   return hidden;
-}
-
-function middle(boxes: readonly (Box | null)[]): [number, number] {
-  let [x0, y0, x1, y1] = [Infinity, Infinity, -Infinity, -Infinity];
-  for (const box of boxes) {
-    if (box === null) continue;
-    [x0, y0] = [Math.min(x0, box[0]), Math.min(y0, box[1])];
-    [x1, y1] = [Math.max(x1, box[3]), Math.max(y1, box[4])];
-  }
-  return [(x0 + x1) / 2, (y0 + y1) / 2];
 }
 
 /** Returns the objects whose boxes hide the middle of one of the watched objects, or hold it: cabinets, doors, lids. */

@@ -2,9 +2,13 @@
 
 import { Box3, Vector3 } from "three";
 import type { ObjectColumns, ObjectIndex } from "../api/types";
+import { indices } from "../state/model";
 
-/** Returns the box around objects that are no outliers; around all of them if there are no others. */
-export function boundsOf(columns: Pick<ObjectColumns, "box" | "is_outlier">, objects: readonly ObjectIndex[]): Box3 {
+/** Returns the box around objects, by default all, that are no outliers; around all of them if there are no others. */
+export function boundsOf(
+  columns: Pick<ObjectColumns, "box" | "is_outlier">,
+  objects: readonly ObjectIndex[] = indices(columns.box.length),
+): Box3 {
   const usual = objects.filter((object) => columns.is_outlier[object] !== true);
   const bounds = new Box3();
   for (const object of usual.length > 0 ? usual : objects) {

@@ -15,7 +15,6 @@ import {
   WebGLRenderer,
 } from "three";
 import type { Box, ObjectIndex, SceneData, TextureUse } from "../api/types";
-import { indices } from "../state/model";
 import type { Eye } from "./appearance";
 import { boundsOf } from "./bounds";
 import { BoxBatch } from "./boxes";
@@ -199,8 +198,7 @@ export class Viewer {
   }
 
   private boundsOf(objects: readonly ObjectIndex[] | null): Box3 {
-    const columns = this.data.objects;
-    return boundsOf(columns, objects ?? indices(columns.path.length));
+    return boundsOf(this.data.objects, objects ?? undefined);
   }
 
   private listen(canvas: HTMLCanvasElement): void {
