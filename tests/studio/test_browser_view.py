@@ -12,6 +12,7 @@ from playwright.sync_api import Browser, Page, expect, sync_playwright
 from tests.studio.conftest import needs_page, running_studio
 from tests.studio.test_browser import CHROMIUM, SOFTWARE_GL, close_page, open_page
 from tests.studio.test_textures import poster
+from usd2kg.demo import demo_scene
 
 Image = pytest.importorskip("PIL.Image")
 pytestmark = [
@@ -151,4 +152,23 @@ def test_messages_do_not_cover_the_review(browser: Browser, stage: Path, tmp_pat
         assert picture is not None
         assert picture["y"] <= box["y"]
         assert box["y"] + box["height"] <= picture["y"] + picture["height"]
+        close_page(page)
+
+
+def test_relations_of_the_selection_are_drawn_with_their_numbers(browser: Browser, tmp_path: Path) -> None:
+    with running_studio(demo_scene(), tmp_path / "project") as studio:
+        page = open_page(browser, studio)
+        page.get_by_label("Filter objects").fill("wineGlass_04")
+        page.locator(".tree-row", has_text="wineGlass_04").click()
+        page.keyboard.press("f")
+        # It is in the group under review, which has another current member.
+        expect(page.locator(".object-panel h2")).to_have_text("wineGlass_04")
+        labels = page.locator(".label-relation:not([hidden])")
+        expect(labels.get_by_text("on", exact=True)).to_have_count(1)
+        numbered = labels.filter(has_text="next to 0.0")
+        expect(numbered.locator("visible=true").first).to_be_visible()
+        page.locator("summary", has_text="Relations").click()
+        page.get_by_label("next-to").uncheck()
+        expect(numbered).to_have_count(0)
+        expect(labels.get_by_text("on", exact=True)).to_have_count(1)
         close_page(page)

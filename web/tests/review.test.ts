@@ -104,6 +104,29 @@ describe("store", () => {
   });
 });
 
+describe("the current member of a group", () => {
+  it("is the object that is selected anywhere, and arrows move the selection", async () => {
+    const store = makeStore(vi.fn());
+    await store.loadQueue();
+    store.goTo("/K/Table/Cup_1");
+    store.select([1]);
+    expect([store.member.value, focusOf(store)]).toEqual([1, 1]);
+    findBinding("ArrowRight")?.run(store, view, "ArrowRight");
+    expect([store.selection.value, focusOf(store)]).toEqual([[2], 2]);
+    // Something outside the group leaves its member.
+    store.select([3]);
+    expect([store.member.value, focusOf(store)]).toEqual([0, 3]);
+  });
+
+  it("moves alone while the group is selected", async () => {
+    const store = makeStore(vi.fn());
+    await store.loadQueue();
+    store.goTo("/K/Table/Cup_1");
+    findBinding("ArrowLeft")?.run(store, view, "ArrowLeft");
+    expect([store.selection.value, store.member.value, focusOf(store)]).toEqual([[2, 1], 1, 1]);
+  });
+});
+
 describe("fast and concurrent reviewers", () => {
   /** Answers each decision when it is let through, with the state that it asks for. */
   function gated() {

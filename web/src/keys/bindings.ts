@@ -244,8 +244,12 @@ function chooseSuperclass(store: Store): void {
 }
 
 function moveMember(store: Store, by: number): void {
-  const count = store.group.value?.objects.length ?? 0;
-  if (count > 0) store.member.value = (store.member.value + by + count) % count;
+  const objects = store.group.value?.objects ?? [];
+  const next = objects[(store.member.value + by + objects.length) % objects.length];
+  if (next === undefined) return;
+  // Where one member is selected, not the group, the selection moves along.
+  if (store.selection.value.length === 1) store.select([next]);
+  else store.member.value = objects.indexOf(next);
 }
 
 /** Returns whether each dialog is open. */

@@ -133,10 +133,7 @@ function GroupCard({ store, group }: { store: Store; group: QueueGroup }) {
             class={first + offset === member.value ? "member focused" : "member"}
             aria-selected={!excluded.value.has(object)}
             title={model.data.objects.path[object] ?? ""}
-            onClick={() => {
-              member.value = first + offset;
-              store.select([object]);
-            }}
+            onClick={() => store.select([object])}
             onDblClick={() => store.toggleMember(object)}
           >
             <Thumbnail object={object} label={model.data.objects.name[object] ?? ""} />

@@ -17,6 +17,7 @@ export function StatusBar({ store }: { store: Store }) {
   const decided = store.decided.value;
   const share = model.count === 0 ? 1 : decided / model.count;
   const { folder, problem } = store.outputs.value;
+  const groups = store.groups.value.length;
   const saving = store.saving.value;
   return (
     <footer class="status-bar">
@@ -34,7 +35,7 @@ export function StatusBar({ store }: { store: Store }) {
       </span>
       <span>
         {decided} of {model.count} decided
-        {store.groups.value.length > 0 && ` · ${store.groups.value.length} groups open`}
+        {groups > 0 && ` · ${groups} ${groups === 1 ? "group" : "groups"} open`}
         {seconds !== null && ` · about ${durationText(seconds)} left`}
       </span>
       <Reviewer store={store} />

@@ -82,24 +82,21 @@ export function TreeView(props: Props) {
             style={{ paddingLeft: `${4 + 14 * row.depth}px` }}
             onClick={(event) => props.onSelect(row.node, event.shiftKey || event.ctrlKey || event.metaKey)}
           >
-            {row.hasChildren ? (
-              <button
-                type="button"
-                class="twist"
-                tabIndex={-1}
-                aria-label={row.isOpen ? "Close" : "Open"}
-                onClick={(event) => {
-                  event.stopPropagation();
-                  toggle(row.node);
-                }}
-              >
+            <span
+              class="twist"
+              aria-hidden="true"
+              onClick={(event) => {
+                if (!row.hasChildren) return;
+                event.stopPropagation();
+                toggle(row.node);
+              }}
+            >
+              {row.hasChildren && (
                 <svg viewBox="0 0 10 10" aria-hidden="true" class={row.isOpen ? "open" : ""}>
                   <path d="M3 2l4 3-4 3z" />
                 </svg>
-              </button>
-            ) : (
-              <span class="twist" />
-            )}
+              )}
+            </span>
             {props.renderRow(row.node)}
           </div>
         )}

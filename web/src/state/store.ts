@@ -65,7 +65,7 @@ export class Store {
   readonly cutShare = signal(1);
   readonly colorMode = signal<ColorMode>("material");
   readonly answer = signal<ReadonlySet<ObjectIndex>>(new Set());
-  readonly relationKinds = signal<ReadonlySet<string>>(new Set(["on", "inside", "attached-to", "part-of"]));
+  readonly relationKinds = signal<ReadonlySet<string>>(new Set(["on", "inside", "next-to", "attached-to", "part-of"]));
 
   readonly filters = signal<Filters>(NO_FILTERS);
   readonly drawer = signal<Drawer>("review");
@@ -162,9 +162,14 @@ export class Store {
     this.notices.value = this.notices.value.filter((notice) => notice.id !== id);
   }
 
+  /** Selects objects; one of the group under review becomes its current member. */
   select(objects: readonly ObjectIndex[], isAdding = false): void {
     if (!isAdding) {
-      this.selection.value = objects;
+      const member = objects.length === 1 ? (this.group.value?.objects.indexOf(objects[0] as ObjectIndex) ?? -1) : -1;
+      batch(() => {
+        this.selection.value = objects;
+        if (member >= 0) this.member.value = member;
+      });
       return;
     }
     const known = new Set(this.selection.value);

@@ -5,7 +5,7 @@ import { type Camera, Vector3 } from "three";
 export interface OverlayLabel {
   at: Vector3;
   text: string;
-  kind: "object" | "relation" | "hover";
+  kind: "object" | "relation";
 }
 
 /** Where a label is: its middle and its width in pixels. */
