@@ -8,6 +8,7 @@ from pathlib import Path
 from usd2kg.errors import Usd2kgError
 from usd2kg.files import write_whole
 from usd2kg.graph import write_graph
+from usd2kg.grounding import Grounding
 from usd2kg.studio.exports import EXPORTS, write_label_layer
 from usd2kg.studio.session import StudioSession
 from usd2kg.studio.settings import SERVER
@@ -24,7 +25,8 @@ class OutputFiles:
         self._session = session
         self._changed = threading.Event()
         self._is_closing = False
-        self._written: object = None
+        self._written: tuple[int, Grounding] | None = None
+        """Version and suggestions of the files."""
         self.problem = ""
         """Why the files are not up to date; empty if they are, or will be in a moment."""
         self._thread = threading.Thread(target=self._run, name="usd2kg-outputs", daemon=True)
@@ -54,15 +56,18 @@ class OutputFiles:
                 # Reviewers decide once a second; the files follow when they pause.
                 self._changed.clear()
                 is_last = self._is_closing or (self._changed.wait(SERVER.outputs_delay_s) and self._is_closing)
-            if self._written != self._current():
+            if not self._is_current():
                 self._write()
 
-    def _current(self) -> tuple[int, int]:
-        """Return what tells whether the files are up to date."""
-        return self._session.version, id(self._session.suggestions)
+    def _is_current(self) -> bool:
+        """Return whether the files are up to date."""
+        if self._written is None:
+            return False
+        version, suggestions = self._written
+        return version == self._session.version and suggestions is self._session.suggestions
 
     def _write(self) -> None:
-        current = self._current()
+        current = self._session.version, self._session.suggestions
         steps: list[Callable[[], object]] = [
             self._session.answers,
             lambda: write_graph(self._session.graph(), self.folder / "graph.ttl"),
