@@ -3,6 +3,7 @@
 import signal
 import subprocess
 import sys
+import time
 from pathlib import Path
 
 import pyoxigraph as ox
@@ -11,6 +12,7 @@ import pytest
 from usd2kg.errors import GraphError, StoreError
 from usd2kg.folder_lock import lock_exclusive, lock_shared
 from usd2kg.stores import EmbeddedStore, NamedGraph, open_graph, select_graphs
+from usd2kg.stores.named_graph import stored_quads
 from usd2kg.stores.pending import PENDING_NAME, write_pending
 from usd2kg.stores.store_limits import FolderLimits
 
@@ -70,11 +72,10 @@ KILLED = """
 import os, signal, sys
 from pathlib import Path
 from usd2kg.stores import EmbeddedStore, read_named_graph
-import pyoxigraph
 graph = read_named_graph(Path(sys.argv[2]))
 def die(*_, **kept):
     if not kept.get("missing_ok"): os.kill(os.getpid(), signal.SIGKILL)
-place = {"unnamed": (Path, "replace"), "named": (EmbeddedStore, "_finish"), "emptied": (pyoxigraph, "parse"),
+place = {"unnamed": (Path, "replace"), "named": (EmbeddedStore, "_replace"), "emptied": (EmbeddedStore, "_add"),
     "full": (Path, "unlink")}[sys.argv[3]]
 setattr(*place, die)
 EmbeddedStore(sys.argv[1]).load(graph)
@@ -96,6 +97,52 @@ def test_the_next_reader_finishes_a_killed_load(tmp_path: Path, small: NamedGrap
     EmbeddedStore(folder).load(large)
     assert len(held(folder)) == triples(large)
     assert not list(folder.glob("usd2kg.pending*"))
+
+
+KILLED_FIRST_LOAD = """
+import sys
+import pyoxigraph as ox
+from usd2kg.stores import EmbeddedStore, NamedGraph
+node = ox.NamedNode
+triples = tuple(ox.Triple(node(f"urn:o{i}"), node("urn:p"), ox.BlankNode(f"b{i}")) for i in range(40_000))
+print("ready", flush=True)
+EmbeddedStore(sys.argv[1]).load(NamedGraph("urn:g", triples))
+print("loaded", flush=True)
+sys.stdin.read()
+"""
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="needs POSIX signals")
+def test_a_first_load_killed_at_any_moment_leaves_all_or_nothing(tmp_path: Path, small: NamedGraph):
+    counts = []
+    for number, seconds in enumerate((0.05, 0.2, 0.4, None)):
+        folder = tmp_path / str(number)
+        EmbeddedStore(folder).load(small)
+        command = [sys.executable, "-c", KILLED_FIRST_LOAD, str(folder)]
+        with subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True) as loading:
+            assert loading.stdin is not None and loading.stdout is not None
+            assert loading.stdout.readline() == "ready\n"
+            if seconds is None:
+                assert loading.stdout.readline() == "loaded\n"
+            else:
+                time.sleep(seconds)
+            loading.kill()
+        store = EmbeddedStore(folder)
+        counts.append(len(store.fetch(["urn:g"])))
+        assert len(store.fetch([small.iri])) == triples(small)
+        store.check()
+        assert not list(folder.glob("bulk-*")) + list(folder.glob(f"{PENDING_NAME}*"))
+    assert set(counts) <= {0, 40_000}
+    assert (counts[0], counts[-1]) == (0, 40_000)
+
+
+def test_a_load_that_fails_halfway_changes_nothing(tmp_path: Path, small: NamedGraph):
+    store = EmbeddedStore(tmp_path)
+    store.load(small)
+    good = ox.Triple(ox.NamedNode("urn:o"), ox.NamedNode("urn:p"), ox.Literal("x"))
+    with pytest.raises(AttributeError):
+        store.load(NamedGraph("urn:g", (good,) * 1000 + (None,)))  # type: ignore[arg-type]
+    assert held(tmp_path) == {str(quad) for quad in stored_quads(small)}
 
 
 def test_a_second_writer_waits_and_gives_up(tmp_path: Path, small: NamedGraph):
@@ -166,7 +213,7 @@ def test_sets_a_damaged_load_aside_and_reads_the_store(
 ):
     store, pending = EmbeddedStore(tmp_path), tmp_path / PENDING_NAME
     store.load(small)
-    write_pending(tmp_path, small.iri, small.triples)
+    write_pending(tmp_path, ox.NamedNode(small.iri), stored_quads(small))
     lines = pending.read_bytes().splitlines(keepends=True)
     damaged = {
         "garbage": b"not a graph\n",

@@ -4,21 +4,24 @@ import errno
 import os
 from pathlib import Path
 
+import pyoxigraph as ox
 import pytest
 
 from usd2kg.errors import StoreError
 from usd2kg.stores import EmbeddedStore, NamedGraph
+from usd2kg.stores.named_graph import stored_quads
 from usd2kg.stores.pending import PENDING_NAME, write_pending
 from usd2kg.stores.store_limits import RESERVE_BYTES
 
 
 def fill_disk(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Make moving a pending graph into the store fail as on a full disk."""
+    """Make adding a graph to the store fail as on a full disk."""
 
     def fail(*_: object) -> None:
         raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC))
 
-    monkeypatch.setattr(EmbeddedStore, "_finish", fail)
+    for step in ("_replace", "_add"):
+        monkeypatch.setattr(EmbeddedStore, step, fail)
 
 
 @pytest.fixture
@@ -27,7 +30,7 @@ def store(tmp_path: Path, small: NamedGraph, other: NamedGraph) -> EmbeddedStore
     found = EmbeddedStore(tmp_path)
     found.load(small)
     found.load(other)
-    write_pending(tmp_path, other.iri, other.triples[:5])
+    write_pending(tmp_path, ox.NamedNode(other.iri), stored_quads(NamedGraph(other.iri, other.triples[:5])))
     return found
 
 
@@ -81,9 +84,13 @@ def test_removing_uses_the_reserve_before_it_gives_up_a_load(
 def test_loading_on_a_full_disk_is_an_error_that_says_what_to_do(
     tmp_path: Path, small: NamedGraph, monkeypatch: pytest.MonkeyPatch
 ):
-    fill_disk(monkeypatch)
-    with pytest.raises(StoreError, match=r"No space left on device\); free disk space, or check the permissions"):
-        EmbeddedStore(tmp_path).load(small)
+    store = EmbeddedStore(tmp_path)
+    with monkeypatch.context() as full:
+        fill_disk(full)
+        with pytest.raises(StoreError, match=r"No space left on device\); free disk space, or check the permissions"):
+            store.load(small)
+    assert store.graphs() == ()
+    assert not (tmp_path / PENDING_NAME).exists()
 
 
 def test_a_writer_deletes_what_killed_writers_left(tmp_path: Path, small: NamedGraph):
@@ -102,7 +109,7 @@ def test_an_error_of_another_kind_gives_up_no_load(
         raise OSError(errno.EIO, os.strerror(errno.EIO))
 
     with monkeypatch.context() as broken:
-        broken.setattr(EmbeddedStore, "_finish", fail)
+        broken.setattr(EmbeddedStore, "_replace", fail)
         with pytest.raises(StoreError, match="cannot be read or written"):
             store.remove(small.iri)
     assert (tmp_path / PENDING_NAME).exists()

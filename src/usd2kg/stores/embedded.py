@@ -20,7 +20,7 @@ from usd2kg.query.graph_cache import open_tables
 from usd2kg.query.graph_store import GraphStore
 from usd2kg.query.remote_clauses import REMOTE_UPDATE, has_remote_clause
 from usd2kg.query.settings import CACHE
-from usd2kg.stores.named_graph import NamedGraph, relabel_blank_nodes
+from usd2kg.stores.named_graph import NamedGraph, stored_quads
 from usd2kg.stores.named_graphs import StoredGraph, list_graphs
 from usd2kg.stores.pending import PENDING_NAME, read_name, set_aside_damaged, write_pending
 from usd2kg.stores.reserve import keep_reserve, release_reserve
@@ -80,9 +80,14 @@ class EmbeddedStore:
         Raises:
             StoreError: as for `check`, or the disk is full.
         """
+        node = ox.NamedNode(graph.iri)
         with self._writing() as store:
-            write_pending(self._folder, graph.iri, relabel_blank_nodes(graph))
-            self._finish(store)
+            if store.contains_named_graph(node):
+                # Removing the old graph and adding the new one are two transactions.
+                write_pending(self._folder, node, stored_quads(graph))
+                self._replace(store, node, stored_quads(graph))
+            else:
+                self._add(store, stored_quads(graph))
             keep_reserve(self._folder)
 
     def remove(self, iri: str) -> None:
@@ -280,15 +285,23 @@ class EmbeddedStore:
 
     def _finish(self, store: ox.Store) -> None:
         """Move the pending graph into the store; idempotent."""
-        path = self._folder / PENDING_NAME
-        with path.open("rb") as file:
+        with (self._folder / PENDING_NAME).open("rb") as file:
             node = read_name(file)
             logger.info("%s: loads %s", self._folder, node)
-            store.remove_graph(node)
-            # Parsing and loading keep blank node labels, so that repeating the load gives the same nodes.
-            store.bulk_extend(ox.parse(file, format=ox.RdfFormat.N_QUADS))
+            # Parsing keeps blank node labels, so that repeating the load gives the same nodes.
+            self._replace(store, node, ox.parse(file, format=ox.RdfFormat.N_QUADS))
+
+    def _replace(self, store: ox.Store, node: ox.NamedNode, quads: Iterable[ox.Quad]) -> None:
+        """Replace a graph by the quads that its pending file contains, and delete that file."""
+        store.remove_graph(node)
+        self._add(store, quads)
+        (self._folder / PENDING_NAME).unlink()
+
+    def _add(self, store: ox.Store, quads: Iterable[ox.Quad]) -> None:
+        """Add quads to the store: all of them or, if the process dies, none."""
+        # Loading by the engine's own parser would rename the blank nodes.
+        store.bulk_extend(quads)
         store.flush()
-        path.unlink()
 
 
 def _is_full(error: OSError) -> bool:

@@ -25,7 +25,7 @@ __all__ = [
     "make_named_graph",
     "make_ontology_graph",
     "read_named_graph",
-    "relabel_blank_nodes",
+    "stored_quads",
 ]
 
 
@@ -84,12 +84,13 @@ def read_named_graph(path: Path, iri: str | None = None) -> NamedGraph:
 def _headers(triples: Iterable[ox.Triple]) -> list[str]:
     """Return the IRIs of the ontologies that scenes form: those that a run of this package wrote."""
     ontologies, written = set[str](), set[str]()
-    for subject, predicate, value in triples:
-        if isinstance(subject, ox.NamedNode):
-            if predicate == U2K.run:
-                written.add(subject.value)
-            elif predicate == RDF.type and value == OWL.Ontology:
-                ontologies.add(subject.value)
+    run, kind = U2K.run, RDF.type
+    for triple in triples:
+        predicate = triple.predicate
+        if predicate == run and isinstance(triple.subject, ox.NamedNode):
+            written.add(triple.subject.value)
+        elif predicate == kind and triple.object == OWL.Ontology and isinstance(triple.subject, ox.NamedNode):
+            ontologies.add(triple.subject.value)
     return sorted(ontologies & written)
 
 
@@ -102,11 +103,13 @@ def last_segment(iri: str) -> str:
     return unquote(iri.rstrip("/#").replace("#", "/").rpartition("/")[2])
 
 
-def relabel_blank_nodes(graph: NamedGraph) -> Iterator[ox.Triple]:
-    """Yield the triples with blank node labels derived from the graph's IRI and the original labels.
+def stored_quads(graph: NamedGraph) -> Iterator[ox.Quad]:
+    """Yield the triples in their graph, with blank node labels derived from the graph's IRI and the original labels.
 
     Labels of two scenes must not collide in a store, and a reloaded graph must get the same nodes.
     """
+    node = ox.NamedNode(graph.iri)
+    is_label_free = (ox.NamedNode, ox.Literal)
 
     @cache
     def derive(label: str) -> ox.BlankNode:
@@ -116,10 +119,14 @@ def relabel_blank_nodes(graph: NamedGraph) -> Iterator[ox.Triple]:
         if isinstance(term, ox.BlankNode):
             return derive(term.value)
         if isinstance(term, ox.Triple):
-            subject, value = term.subject, term.object
-            # Most triples have no blank node; making them anew takes as long as writing them.
-            if isinstance(subject, ox.BlankNode) or isinstance(value, ox.BlankNode | ox.Triple):
-                return ox.Triple(relabel(subject), term.predicate, relabel(value))
+            return ox.Triple(relabel(term.subject), term.predicate, relabel(term.object))
         return term
 
-    return map(relabel, graph.triples)
+    for triple in graph.triples:
+        # The engine makes a new object for each term that is asked for.
+        subject, value = triple.subject, triple.object
+        if not isinstance(subject, ox.NamedNode):
+            subject = relabel(subject)
+        if not isinstance(value, is_label_free):
+            value = relabel(value)
+        yield ox.Quad(subject, triple.predicate, value, node)

@@ -24,14 +24,12 @@ _END = b"# end\n"
 """The last line, which a truncated file lacks."""
 
 
-def write_pending(folder: Path, iri: str, triples: Iterable[ox.Triple]) -> None:
-    """Write a graph to the pending file, atomically and synced to disk."""
-    node = ox.NamedNode(iri)
+def write_pending(folder: Path, node: ox.NamedNode, quads: Iterable[ox.Quad]) -> None:
+    """Write the quads of one graph to the pending file, atomically and synced to disk."""
     handle, temporary = tempfile.mkstemp(dir=folder, prefix=f"{PENDING_NAME}.")
     try:
         with os.fdopen(handle, "wb") as file:
             file.write(f"# {node}\n".encode())
-            quads = (ox.Quad(triple.subject, triple.predicate, triple.object, node) for triple in triples)
             ox.serialize(quads, file, format=ox.RdfFormat.N_QUADS)
             file.write(_END)
             file.flush()
