@@ -8,8 +8,12 @@ import pytest
 from usd2kg.batch import JobStatus, Manifest, Record
 from usd2kg.batch.manifest import SourceState
 from usd2kg.errors import OutputError
+from usd2kg.scene import StageFile
 
-DONE = Record("a/b.usd", JobStatus.DONE, "f00", SourceState(10, 20), "a/b.ttl", "abc", summary={"objects": 3})
+LAYER = StageFile("../assets/cup.usd", 30, 40, "def")
+DONE = Record(
+    "a/b.usd", JobStatus.DONE, "f00", SourceState(10, 20), "a/b.ttl", "abc", layers=(LAYER,), summary={"objects": 3}
+)
 FAILED = replace(DONE, scene="ü\u2028c.usd", status=JobStatus.FAILED, output="", sha256="", error="broken", summary={})
 
 

@@ -77,6 +77,45 @@ def test_what_is_finished_is_not_built_again(run: Run, scenes: Scenes, tmp_path:
         assert json.loads(run("batch", folder, "-o", out, "--json", *option).out)["built"] == 4
 
 
+def test_a_scene_is_built_again_when_a_layer_that_it_uses_has_changed(run: Run, room: Path, tmp_path: Path):
+    folder, out, asset = tmp_path / "scenes", tmp_path / "out", tmp_path / "assets" / "room.usda"
+    for file in (asset, folder / "alone.usda"):
+        file.parent.mkdir()
+        file.write_bytes(room.read_bytes())
+    for name in ("a.usda", "b.usda"):
+        (folder / name).write_text(
+            '#usda 1.0\n(\n    metersPerUnit = 1\n    upAxis = "Z"\n)\n'
+            'def "Hall" (\n    prepend references = @../assets/room.usda@</Room>\n)\n{\n}\n'
+        )
+
+    def built() -> int:
+        done = run("batch", folder, "-o", out, "--json")
+        assert done.code == 0, done.err
+        return int(json.loads(done.out)["built"])
+
+    assert [built(), built()] == [3, 0]
+    layers = {record["scene"]: record["layers"] for record in records(out)}
+    assert layers["alone.usda"] == []
+    (layer,) = layers["a.usda"]
+    assert (layer["path"], layer["bytes"]) == ("../assets/room.usda", asset.stat().st_size)
+    # A later time alone is no change.
+    os.utime(asset, ns=(1, 1))
+    assert built() == 0
+    text = asset.read_text()
+    asset.write_text(text.replace("Apple", "Lemon"))
+    assert asset.stat().st_size == layer["bytes"]
+    assert [built(), built()] == [2, 0]
+    # What is moved as a whole stays finished.
+    moved = tmp_path / "elsewhere"
+    moved.mkdir()
+    for place in (folder, asset.parent):
+        place.rename(moved / place.name)
+    folder = moved / "scenes"
+    assert built() == 0
+    (moved / "assets" / "room.usda").unlink()
+    assert built() == 2
+
+
 def test_a_bad_scene_stops_no_other(run: Run, scenes: Scenes, tmp_path: Path):
     folder, out = scenes("a.usda", "b.usda"), tmp_path / "out"
     (folder / "broken.usda").write_text("#usda 1.0\ndef Xform {")

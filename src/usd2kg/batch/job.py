@@ -7,7 +7,10 @@ from typing import Any, Protocol
 
 from usd2kg.errors import Usd2kgError, one_line
 
-__all__ = ["Job", "Outcome", "Task", "attempt"]
+__all__ = ["LAYERS", "Job", "Outcome", "Task", "attempt"]
+
+LAYERS = "layers"
+"""Key in what a task returns: the `StageFile` of each file that the scene refers to. All else is the summary."""
 
 
 @dataclass(frozen=True)
@@ -29,7 +32,7 @@ class Outcome:
 
     job: Job
     summary: Mapping[str, Any] | None
-    """What the task returned; None if it failed."""
+    """What the task returned, with `LAYERS` if it knows them; None if it failed."""
     error: str
     """Why it failed, on one line; empty otherwise."""
     seconds: float

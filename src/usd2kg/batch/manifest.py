@@ -9,6 +9,7 @@ from typing import Any, Self
 
 from usd2kg.append_only import AppendOnlyFile, whole_lines
 from usd2kg.errors import OutputError
+from usd2kg.scene import StageFile
 
 __all__ = ["JobStatus", "Manifest", "Record", "SourceState"]
 
@@ -49,6 +50,8 @@ class Record:
     """Graph file relative to the output folder; empty if it failed."""
     sha256: str = ""
     """Checksum of the graph file."""
+    layers: tuple[StageFile, ...] = ()
+    """Files that the scene refers to, relative to its folder; without a hash if one changed during the build."""
     error: str = ""
     attempts: int = 1
     seconds: float = 0.0
@@ -117,7 +120,9 @@ def _read(path: Path, text: str) -> Iterator[Record]:
         try:
             values = json.loads(line)
             source = SourceState(**values.pop("source"))
-            yield Record(status=JobStatus(values.pop("status")), source=source, **values)
+            # Version 0.2.0 recorded none; its scenes are built again, as the version is one of the options.
+            layers = tuple(StageFile(**layer) for layer in values.pop("layers", ()))
+            yield Record(status=JobStatus(values.pop("status")), source=source, layers=layers, **values)
         except (ValueError, TypeError, KeyError, AttributeError) as error:
             raise OutputError(
                 f"{path}: line {number} is not a record of a batch ({error}); choose another output folder"

@@ -7,7 +7,8 @@ from pathlib import Path
 from typing import NamedTuple
 from urllib.parse import quote
 
-from usd2kg.batch.job import Job, Outcome
+from usd2kg.batch.job import LAYERS, Job, Outcome
+from usd2kg.batch.layers import ChangedFiles
 from usd2kg.batch.manifest import JobStatus, Manifest, Record, SourceState
 from usd2kg.batch.scene_files import SceneFile, output_names
 from usd2kg.errors import OutputError, Usd2kgError, one_line
@@ -60,8 +61,9 @@ def plan_batch(
 ) -> BatchPlan:
     """Return which scenes are to be built, and which are finished.
 
-    A scene is finished if it was built with the same options, its file has the same size and time, and its graph has
-    the checksum that it was written with. Files that a scene refers to are not looked at.
+    A scene is finished if it was built with the same options, its file has the same size and time, the layers that it
+    refers to have the same size and either the same time or the same content, and its graph has the checksum that it
+    was written with.
 
     Args:
         scenes: the scenes.
@@ -79,12 +81,14 @@ def plan_batch(
     sources = {scene.path.resolve() for scene in scenes}
     jobs: list[tuple[int, Job]] = []
     finished: list[Record] = []
+    changed = ChangedFiles()
     for scene in scenes:
         job = place.job(scene, names[scene.name])
         if job.target.resolve() in sources:
             raise OutputError(f"{job.target}: is a scene of the batch and would be overwritten; choose another folder")
         record, state = manifest.get(scene.name), SourceState.of(scene.path)
-        if not is_again and record is not None and _is_finished(record, job, state, options):
+        is_done = record is not None and _is_finished(record, job, state, options)
+        if record is not None and is_done and not is_again and not changed.any_of(record.layers, scene.path):
             finished.append(record)
         else:
             jobs.append((-state.bytes, job))
@@ -136,6 +140,8 @@ def run_batch(
 
 def _record(outcome: Outcome, error: str, options: str, source: SourceState, folder: Path) -> Record:
     job, is_done = outcome.job, outcome.summary is not None and not error
+    summary = dict(outcome.summary or {}) if is_done else {}
+    layers = tuple(summary.pop(LAYERS, ()))
     return Record(
         scene=job.name,
         status=JobStatus.DONE if is_done else JobStatus.FAILED,
@@ -147,5 +153,6 @@ def _record(outcome: Outcome, error: str, options: str, source: SourceState, fol
         attempts=outcome.attempts,
         seconds=round(outcome.seconds, 3),
         finished=datetime.now(UTC).isoformat(timespec="seconds"),
-        summary=dict(outcome.summary or {}) if is_done else {},
+        layers=layers,
+        summary=summary,
     )

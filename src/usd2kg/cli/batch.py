@@ -53,11 +53,13 @@ class _BuildTask:
         return lambda job: self._build(job, tbox)
 
     def _build(self, job: "Job", tbox: "TBox | None") -> Mapping[str, Any]:
+        from usd2kg.batch.job import LAYERS  # noqa: PLC0415
+        from usd2kg.batch.layers import relative_files  # noqa: PLC0415
         from usd2kg.cli.build_summary import summarize_build  # noqa: PLC0415
         from usd2kg.graph import merge_imports, write_graph  # noqa: PLC0415
         from usd2kg.ontology import read_closure  # noqa: PLC0415
 
-        start = time.perf_counter()
+        start, begun_ns = time.perf_counter(), time.time_ns()
         with self.steps.run(job.source, tbox, job.base) as (result, session):
             graph = result.graph
             if self.merges_imports:
@@ -69,7 +71,8 @@ class _BuildTask:
             write_graph(graph, job.target)
             session.check_completions()
         summary = summarize_build(result, "", time.perf_counter() - start)
-        return {key: summary[key] for key in _SUMMARY}
+        layers = relative_files(result.scene.files, job.source, begun_ns)
+        return {LAYERS: layers, **{key: summary[key] for key in _SUMMARY}}
 
 
 @expand_bundles

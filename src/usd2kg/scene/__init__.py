@@ -18,6 +18,7 @@ from usd2kg.scene.model import (
     ObjectLabels,
     Scene,
     SceneObject,
+    StageFile,
     StageFrame,
 )
 from usd2kg.scene.object_selection import ASKED_FOR
@@ -55,6 +56,7 @@ __all__ = [
     "SceneObject",
     "SelectionOverrides",
     "ShapeDescriptors",
+    "StageFile",
     "StageFrame",
     "class_words",
     "describe_shapes",

@@ -22,6 +22,7 @@ __all__ = [
     "ObjectLabels",
     "Scene",
     "SceneObject",
+    "StageFile",
     "StageFrame",
 ]
 
@@ -270,6 +271,18 @@ class SceneObject:
 
 
 @dataclass(frozen=True)
+class StageFile:
+    """A file that a stage was composed of, as it was when it was read."""
+
+    path: str
+    """A layer, or the package that contains it; absolute, links resolved."""
+    bytes: int
+    modified_ns: int
+    sha256: str
+    """Hexadecimal digits."""
+
+
+@dataclass(frozen=True)
 class Scene(RichDisplay):
     """All objects of one stage, with joints and diagnostics."""
 
@@ -295,6 +308,8 @@ class Scene(RichDisplay):
     """In traversal order."""
     origin: Origin | None = None
     """What the stage was converted from; None if it is not a conversion."""
+    files: tuple[StageFile, ...] = field(default=(), compare=False, repr=False)
+    """The layers in use, sorted by path; empty for other formats. Textures and missing files are not among them."""
     surfaces: Mapping[str, Surface] = field(default_factory=dict, compare=False, repr=False)
     """Prim path → triangles, for objects near others whose box does not say it all; not for axis-aligned boxes."""
 

@@ -97,6 +97,7 @@ def read_scene(
         missing_paths=selection.missing,
         joints=joints.joints,
         origin=opened.origin,
+        files=opened.contents.files,
         surfaces=reader.surfaces,
     )
     notes = (*_left_out_notes(outline), *reader.notes, *joints.diagnostics, *label_notes, *check_sanity(scene))

@@ -13,7 +13,7 @@ from dataclasses import dataclass
 from functools import cached_property
 from operator import attrgetter
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 
 from pxr import Sdf, Tf, Usd, UsdGeom, UsdPhysics, UsdUtils
 
@@ -27,8 +27,9 @@ from usd2kg.convert import (
     stages_in,
 )
 from usd2kg.errors import SceneError
+from usd2kg.files import hash_file
 from usd2kg.scene.expansion import check_expansion
-from usd2kg.scene.model import Diagnostic, StageFrame
+from usd2kg.scene.model import Diagnostic, StageFile, StageFrame
 from usd2kg.scene.options import ReadOptions
 from usd2kg.scene.settings import LIMITS
 
@@ -70,9 +71,21 @@ class OpenedStage:
     """What the stage was converted from; None if it is not a conversion."""
 
     @cached_property
-    def content_hash(self) -> str:
-        """SHA-256 over all layers in use; all files are read when it is first asked for."""
+    def contents(self) -> "_StageContents":
+        """Hash and files of all layers in use; all files are read when it is first asked for."""
         return _hash_layers(self.stage)
+
+    @property
+    def content_hash(self) -> str:
+        """SHA-256 over all layers in use."""
+        return self.contents.hash
+
+
+class _StageContents(NamedTuple):
+    """What a stage was composed of."""
+
+    hash: str
+    files: tuple[StageFile, ...]
 
 
 def open_stage(source: Path | str | Usd.Stage, options: ReadOptions) -> OpenedStage:
@@ -327,13 +340,21 @@ def _as_double(value: float) -> float:
     return float(f"{value:.7g}")
 
 
-def _hash_layers(stage: Any) -> str:
-    digests = []
+def _hash_layers(stage: Any) -> _StageContents:
+    digests: list[str] = []
+    files: dict[str, StageFile] = {}
     for layer in stage.GetUsedLayers():
-        path = Path(layer.realPath) if layer.realPath else None
-        if path is not None and path.is_file() and not layer.dirty:
-            digests.append(hashlib.sha256(path.read_bytes()).hexdigest())
+        # `room.usdz[chair.usda]` is a layer in a package.
+        name, _, inner = layer.realPath.partition("[")
+        file = Path(name) if name else None
+        if file is not None and file.is_file() and name not in files:
+            # The state before the content: a later change then shows.
+            state = file.stat()
+            files[name] = StageFile(name, state.st_size, state.st_mtime_ns, hash_file(file))
+        if name in files and not inner and not layer.dirty:
+            digests.append(files[name].sha256)
         elif not layer.empty:
             # Layers edited in memory differ from their files.
             digests.append(hashlib.sha256(layer.ExportToString().encode()).hexdigest())
-    return "sha256:" + hashlib.sha256("".join(sorted(digests)).encode()).hexdigest()
+    digest = hashlib.sha256("".join(sorted(digests)).encode()).hexdigest()
+    return _StageContents(f"sha256:{digest}", tuple(files[name] for name in sorted(files)))

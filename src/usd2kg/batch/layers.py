@@ -1,0 +1,72 @@
+"""The files that a scene refers to: recorded with its graph, and compared with those on disk when a batch resumes."""
+
+import os
+from collections.abc import Iterable
+from dataclasses import replace
+from functools import cache
+from pathlib import Path
+
+from usd2kg.files import hash_file
+from usd2kg.scene import StageFile
+
+__all__ = ["ChangedFiles", "relative_files"]
+
+_NOT_KNOWN = ""
+"""Hash of a file that changed while its scene was built."""
+
+
+def relative_files(files: Iterable[StageFile], source: Path, begun_ns: int) -> tuple[StageFile, ...]:
+    """Return the files that a scene refers to, with paths relative to its folder.
+
+    Args:
+        files: those of the scene.
+        source: the scene itself, which is left out.
+        begun_ns: when the scene began to be read. OpenUSD may have read what a file contained before a later change,
+            so such a file gets no hash.
+    """
+    root = source.resolve()
+    return tuple(
+        replace(
+            file,
+            path=_relative(file.path, root.parent),
+            sha256=file.sha256 if file.modified_ns < begun_ns else _NOT_KNOWN,
+        )
+        for file in files
+        if Path(file.path).resolve() != root
+    )
+
+
+class ChangedFiles:
+    """Compares recorded files with those on disk; a file that many scenes share is looked at once."""
+
+    def __init__(self) -> None:
+        self._state = cache(_state)
+        self._hash = cache(hash_file)
+
+    def any_of(self, files: Iterable[StageFile], source: Path) -> bool:
+        """Return whether a file that a scene refers to has another content than recorded, or is missing."""
+        folder = source.resolve().parent
+        return any(self._has_changed(file, folder / file.path) for file in files)
+
+    def _has_changed(self, file: StageFile, path: Path) -> bool:
+        state = self._state(path)
+        if state is None or not file.sha256:
+            return True
+        return state != (file.bytes, file.modified_ns) and (state[0] != file.bytes or self._hash(path) != file.sha256)
+
+
+def _state(path: Path) -> tuple[int, int] | None:
+    """Return the size and the time of change; None for a missing file."""
+    try:
+        state = path.stat()
+    except OSError:
+        return None
+    return state.st_size, state.st_mtime_ns
+
+
+def _relative(path: str, folder: Path) -> str:
+    try:
+        return Path(os.path.relpath(path, folder)).as_posix()
+    except ValueError:
+        # On another drive of Windows.
+        return path
