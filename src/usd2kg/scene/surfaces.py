@@ -12,7 +12,7 @@ from usd2kg.scene.model import Box, StageFrame, Vector
 from usd2kg.scene.outline import PrimRecord
 from usd2kg.scene.settings import MAX_COORDINATE, SURFACES
 from usd2kg.scene.solids import solid_surface
-from usd2kg.scene.triangulation import read_mesh
+from usd2kg.scene.triangulation import Faces, read_faces, triangulate_faces
 from usd2kg.shapes.box_pairs import overlapping_pairs
 from usd2kg.shapes.shell import shell_boxes
 from usd2kg.shapes.surface import Surface, SurfacePiece, is_box, turned_outward
@@ -77,12 +77,13 @@ def _vector(values: Array) -> Vector:
 
 
 class SurfaceReader:
-    """Reads the surfaces of objects; the geometry that instances share is read once."""
+    """Reads the surfaces of objects; what instances share is read once, equal meshes are triangulated and kept once."""
 
     def __init__(self, boxes: BoxReader, frame: StageFrame) -> None:
         self._boxes = boxes
         self._to_world = _UP_AXES[frame.up_axis] * frame.metres_per_unit
         self._shared: dict[int, _Triangles | None] = {}
+        self._by_digest: dict[bytes, _Triangles | None] = {}
         self._points_left = SURFACES.max_total_points
 
     def read(self, records: Sequence[PrimRecord]) -> Surface | None:
@@ -123,8 +124,20 @@ class SurfaceReader:
     def _triangles(self, record: PrimRecord) -> _Triangles | None:
         source = record.twin or record
         if id(source) not in self._shared:
-            self._shared[id(source)] = _read_triangles(source.prim, self._boxes.time)
+            self._shared[id(source)] = self._read_triangles(source.prim)
         return self._shared[id(source)]
+
+    def _read_triangles(self, prim: Any) -> _Triangles | None:
+        time = self._boxes.time
+        if not prim.IsA(UsdGeom.Mesh):
+            surface = solid_surface(prim, time)
+            return None if surface is None else _compact(*surface)
+        # References that are not instances have equal meshes, too.
+        faces = read_faces(UsdGeom.Mesh(prim), time)
+        digest = faces.digest()
+        if digest not in self._by_digest:
+            self._by_digest[digest] = _triangles_of(faces)
+        return self._by_digest[digest]
 
 
 def _joined(pieces: Sequence[SurfacePiece]) -> SurfacePiece:
@@ -138,8 +151,13 @@ def _joined(pieces: Sequence[SurfacePiece]) -> SurfacePiece:
     return SurfacePiece(points, np.concatenate(triangles).astype(np.int32), matrix)
 
 
-def _read_triangles(prim: Any, time: Any) -> _Triangles | None:
-    found = read_mesh(prim, time) if prim.IsA(UsdGeom.Mesh) else solid_surface(prim, time)
-    if found is None or not len(found[1]) or not (np.abs(found[0]) < MAX_COORDINATE).all():
+def _triangles_of(faces: Faces) -> _Triangles | None:
+    mesh, _ = triangulate_faces(faces)
+    return None if mesh is None else _compact(mesh.points, mesh.triangles)
+
+
+def _compact(points: Array, triangles: NDArray[np.int32]) -> _Triangles | None:
+    """Return points and triangles in single precision; None without triangles, or if a point is too far or NaN."""
+    if not len(triangles) or not (np.abs(points) < MAX_COORDINATE).all():
         return None
-    return found[0].astype(np.float32), found[1].astype(np.int32)
+    return points.astype(np.float32), triangles.astype(np.int32)

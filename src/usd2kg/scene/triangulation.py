@@ -1,5 +1,6 @@
 """Triangles of meshes and solids in their own frame."""
 
+import hashlib
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -8,7 +9,16 @@ from pxr import Usd, UsdGeom
 
 from usd2kg.scene.solids import solid_surface
 
-__all__ = ["LocalMesh", "as_array", "read_mesh", "tessellate", "triangulate"]
+__all__ = [
+    "Faces",
+    "LocalMesh",
+    "as_array",
+    "read_faces",
+    "read_mesh",
+    "tessellate",
+    "triangulate",
+    "triangulate_faces",
+]
 
 Points = NDArray[np.float64]
 Triangles = NDArray[np.int32]
@@ -25,11 +35,25 @@ class LocalMesh(NamedTuple):
     """(m, 3): the face vertex at each corner of a triangle; None for a solid."""
 
 
-def read_mesh(prim: Any, time: Usd.TimeCode) -> tuple[Points, Triangles] | None:
-    """Return points (n, 3) of a mesh in its own frame and stage units, and triangles (m, 3); None if empty or broken.
+class Faces(NamedTuple):
+    """The faces of a mesh as they are authored, possibly broken."""
 
-    Triangles are counter-clockwise seen from outside; polygons are triangulated as fans.
-    """
+    points: Points
+    counts: NDArray[np.int64]
+    """Corners of each face."""
+    indices: NDArray[np.int64]
+    """Index into `points` of each corner."""
+    is_left_handed: bool
+
+    def digest(self) -> bytes:
+        """Return a hash that equal faces share."""
+        arrays = (self.points, self.counts, self.indices)
+        shapes = repr((self.is_left_handed, *(array.shape for array in arrays)))
+        return hashlib.blake2b(b"".join((shapes.encode(), *(array.tobytes() for array in arrays)))).digest()
+
+
+def read_mesh(prim: Any, time: Usd.TimeCode) -> tuple[Points, Triangles] | None:
+    """Return points (n, 3) of a mesh in its frame, in stage units, and triangles (m, 3); None if empty or broken."""
     mesh, _ = triangulate(UsdGeom.Mesh(prim), time)
     return (mesh.points, mesh.triangles) if mesh is not None and np.isfinite(mesh.points).all() else None
 
@@ -45,9 +69,23 @@ def tessellate(prim: Any, time: Usd.TimeCode) -> tuple[LocalMesh | None, str]:
 
 def triangulate(mesh: Any, time: Usd.TimeCode) -> tuple[LocalMesh | None, str]:
     """Return the triangles of a mesh, or None and the problem."""
+    return triangulate_faces(read_faces(mesh, time))
+
+
+def read_faces(mesh: Any, time: Usd.TimeCode) -> Faces:
+    """Return the faces of a mesh; arrays are empty for missing and mistyped attributes."""
     points = as_array(mesh.GetPointsAttr().Get(time), np.float64)
     counts = as_array(mesh.GetFaceVertexCountsAttr().Get(time), np.int64)
     indices = as_array(mesh.GetFaceVertexIndicesAttr().Get(time), np.int64)
+    return Faces(points, counts, indices, mesh.GetOrientationAttr().Get() == UsdGeom.Tokens.leftHanded)
+
+
+def triangulate_faces(faces: Faces) -> tuple[LocalMesh | None, str]:
+    """Return the triangles of faces, or None and the problem.
+
+    Triangles are counter-clockwise seen from outside; polygons are triangulated as fans.
+    """
+    points, counts, indices, is_left_handed = faces
     if not len(points) or not len(counts):
         return None, ""
     if points.shape[1:] != (3,) or counts.ndim != 1 or indices.ndim != 1:
@@ -57,7 +95,7 @@ def triangulate(mesh: Any, time: Usd.TimeCode) -> tuple[LocalMesh | None, str]:
     if len(indices) and (indices.min() < 0 or indices.max() >= len(points)):
         return None, f"faceVertexIndices has values outside 0 … {len(points) - 1}"
     corners, face_of = _fans(counts)
-    if mesh.GetOrientationAttr().Get() == UsdGeom.Tokens.leftHanded:
+    if is_left_handed:
         corners = corners[:, ::-1]
     return LocalMesh(points, indices[corners].astype(np.int32), face_of, corners), ""
 

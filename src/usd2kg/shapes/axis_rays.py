@@ -59,41 +59,97 @@ def find_crossings(points: Sequence[Array], surfaces: Sequence[Surface], axis: i
 
 def _cross_some(points: Sequence[Array], surfaces: Sequence[Surface], axis: int) -> Iterator[Crossings]:
     first, second = (other for other in range(3) if other != axis)
-    sides = [first, second]
     count = np.array([len(some) for some in points], np.int64)
     starts = np.cumsum(count) - count
     lines = np.concatenate(points)
-    low, high = np.minimum.reduceat(lines[:, sides], starts), np.maximum.reduceat(lines[:, sides], starts)
-    size = np.array([len(surface.corners) for surface in surfaces], np.int64)
-    lower = np.concatenate([surface.lower for surface in surfaces])[:, sides]
-    upper = np.concatenate([surface.upper for surface in surfaces])[:, sides]
-    owner = np.repeat(np.arange(len(surfaces)), size)
-    near = np.flatnonzero(((lower <= high[owner]) & (upper >= low[owner])).all(axis=1))
-    corners = np.concatenate([surface.corners for surface in surfaces])[near]
+    lines_first, lines_second = np.ascontiguousarray(lines[:, first]), np.ascontiguousarray(lines[:, second])
+    owner = np.repeat(np.arange(len(surfaces)), [len(surface.corners) for surface in surfaces])
+    lower = np.concatenate([surface.lower for surface in surfaces])
+    upper = np.concatenate([surface.upper for surface in surfaces])
+    near = np.flatnonzero(
+        (lower[:, second] <= np.maximum.reduceat(lines_second, starts)[owner])
+        & (upper[:, second] >= np.minimum.reduceat(lines_second, starts)[owner])
+    )
     lower, upper, owner = lower[near], upper[near], owner[near]
-    tests = np.cumsum(count[owner])
+    order, begin, end = _spans(
+        lines_first, np.repeat(np.arange(len(surfaces)), count), lower[:, first], upper[:, first], owner
+    )
+    triangles = _Triangles.of(np.concatenate([surface.corners for surface in surfaces])[near], (axis, first, second))
+    low, high = np.ascontiguousarray(lower[:, second]), np.ascontiguousarray(upper[:, second])
+    tests = np.cumsum(end - begin)
     for part in np.split(np.arange(len(near)), np.flatnonzero(np.diff(tests // _CHUNK)) + 1):
-        row, nth = ragged_indices(count[owner[part]])
+        row, nth = ragged_indices((end - begin)[part])
         triangle = part[row]
-        line = starts[owner[triangle]] + nth
-        is_over = np.ones(len(line), np.bool_)
-        for place, side in enumerate(sides):
-            at = lines[line, side]
-            is_over &= (lower[triangle, place] <= at) & (upper[triangle, place] >= at)
-        yield _cross(lines, line[is_over], corners[triangle[is_over]], (axis, first, second))
+        line = order[begin[triangle] + nth]
+        at = lines_second[line]
+        is_over = (low[triangle] <= at) & (high[triangle] >= at)
+        yield triangles.crossed_by(line[is_over], triangle[is_over], lines_first, lines_second)
 
 
-def _cross(lines: Array, line: Indices, corners: Array, axes: tuple[int, int, int]) -> Crossings:
-    axis, first, second = axes
-    a, u, v = corners[:, 0], corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]
-    to_first, to_second = lines[line, first] - a[:, first], lines[line, second] - a[:, second]
-    area = u[:, first] * v[:, second] - u[:, second] * v[:, first]
-    is_wide = np.abs(area) > _MIN_PROJECTION * ((u * u).sum(axis=1) + (v * v).sum(axis=1))
-    safe = np.where(is_wide, area, 1.0)
-    s = (to_first * v[:, second] - to_second * v[:, first]) / safe
-    t = (u[:, first] * to_second - u[:, second] * to_first) / safe
-    is_in = is_wide & (s >= -_EDGE_TOLERANCE) & (t >= -_EDGE_TOLERANCE) & (s + t <= 1 + _EDGE_TOLERANCE)
-    at = a[:, axis] + s * u[:, axis] + t * v[:, axis]
-    u, v = u[is_in], v[is_in]
-    normals = np.cross(u, v)
-    return Crossings(line[is_in], at[is_in], normals[:, axis] / np.sqrt((normals * normals).sum(axis=1)))
+def _spans(
+    at: Array, line_owner: Indices, lower: Array, upper: Array, owner: Indices
+) -> tuple[Indices, Indices, Indices]:
+    """Return the lines sorted by owner and coordinate, and begin and end in that order of those over each triangle.
+
+    Args:
+        at: (n,), coordinate of each line.
+        line_owner: (n,), the surface that each line may cross, ascending.
+        lower: (m,), smallest coordinate of each triangle.
+        upper: (m,)
+        owner: (m,), the surface of each triangle.
+    """
+    # Sorted with the lines, a lower end comes before and an upper end after the lines at the same coordinate.
+    kind = np.repeat([1, 0, 2], [len(at), len(lower), len(upper)])
+    ranks = np.lexsort((kind, np.concatenate([at, lower, upper]), np.concatenate([line_owner, owner, owner])))
+    is_line = ranks < len(at)
+    before = np.empty(len(ranks), np.int64)
+    before[ranks] = np.cumsum(is_line)
+    return ranks[is_line], before[len(at) : len(at) + len(lower)], before[len(at) + len(lower) :]
+
+
+class _Triangles(NamedTuple):
+    """What a crossing needs to know of triangles, a column for each number: gathering rows of a matrix is slower."""
+
+    origin: tuple[Array, Array, Array]
+    """A corner: along the axis and the two others."""
+    u: tuple[Array, Array, Array]
+    """The side from it to the second corner."""
+    v: tuple[Array, Array, Array]
+    area: Array
+    """Twice the signed area of the projection along the axis; 0 if the triangle is seen from the side."""
+    faces: Array
+    """As in `Crossings`."""
+
+    @classmethod
+    def of(cls, corners: Array, axes: tuple[int, int, int]) -> "_Triangles":
+        u_rows, v_rows = corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]
+        origin, u, v = (_columns(rows, axes) for rows in (corners[:, 0], u_rows, v_rows))
+        area = u[1] * v[2] - u[2] * v[1]
+        is_wide = np.abs(area) > _MIN_PROJECTION * ((u_rows * u_rows).sum(axis=1) + (v_rows * v_rows).sum(axis=1))
+        normals = np.cross(u_rows, v_rows)
+        with np.errstate(invalid="ignore"):
+            # Only triangles without area, which nothing crosses, have no normal.
+            faces = normals[:, axes[0]] / np.sqrt((normals * normals).sum(axis=1))
+        return cls(origin, u, v, np.where(is_wide, area, 0.0), faces)
+
+    def crossed_by(self, line: Indices, triangle: Indices, first: Array, second: Array) -> Crossings:
+        """Return the crossings of pairs of lines, at `first` and `second`, and triangles; in order of both."""
+        is_wide = self.area[triangle] != 0
+        line, triangle = line[is_wide], triangle[is_wide]
+        area = self.area[triangle]
+        u_first, u_second = self.u[1][triangle], self.u[2][triangle]
+        v_first, v_second = self.v[1][triangle], self.v[2][triangle]
+        to_first = first[line] - self.origin[1][triangle]
+        to_second = second[line] - self.origin[2][triangle]
+        s = (to_first * v_second - to_second * v_first) / area
+        t = (u_first * to_second - u_second * to_first) / area
+        found = np.flatnonzero((s >= -_EDGE_TOLERANCE) & (t >= -_EDGE_TOLERANCE) & (s + t <= 1 + _EDGE_TOLERANCE))
+        found = found[np.lexsort((line[found], triangle[found]))]
+        line, triangle, s, t = line[found], triangle[found], s[found], t[found]
+        at = self.origin[0][triangle] + s * self.u[0][triangle] + t * self.v[0][triangle]
+        return Crossings(line, at, self.faces[triangle])
+
+
+def _columns(rows: Array, axes: tuple[int, int, int]) -> tuple[Array, Array, Array]:
+    first, second, third = (np.ascontiguousarray(rows[:, axis]) for axis in axes)
+    return first, second, third
