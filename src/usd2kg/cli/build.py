@@ -140,7 +140,6 @@ def _save(result: "BuildResult", is_merged: bool, target: Path | None, store: "S
     """
     from usd2kg.graph import merge_imports, write_graph  # noqa: PLC0415
     from usd2kg.ontology import read_closure  # noqa: PLC0415
-    from usd2kg.stores import make_named_graph, make_ontology_graph  # noqa: PLC0415
 
     closure = read_closure(result.tbox, result.graph.imports) if is_merged else None
     for iri in closure.missing if closure is not None else ():
@@ -148,6 +147,8 @@ def _save(result: "BuildResult", is_merged: bool, target: Path | None, store: "S
     if target is not None:
         write_graph(result.graph if closure is None else merge_imports(result.graph, closure), target)
     if store is not None:
+        from usd2kg.stores import make_named_graph, make_ontology_graph  # noqa: PLC0415 - loads queries
+
         # The ontology first, so that the store never holds a scene without its classes.
         shared = [make_ontology_graph(result.tbox, closure)] if closure is not None else []
         load_graphs(store, [*shared, make_named_graph(result.graph)])

@@ -24,9 +24,9 @@ class Glossary:
     """The words of one language by their folded spellings."""
 
     language: str
-    words: Mapping[str, Form]
+    words: "_FormTable"
     """Spellings of whole words and of the last parts of compounds."""
-    modifiers: Mapping[str, Form]
+    modifiers: "_FormTable"
     """Spellings of the other parts of German compounds; empty in other languages."""
     links: dict[str, Entry] = field(default_factory=dict)
     """Words such as `de` and `mit`."""
@@ -89,6 +89,11 @@ class _FormTable(Mapping[str, Form]):
     def __getitem__(self, text: str) -> Form:
         number, code = divmod(self._codes[text], _FORM_CODES)
         return Form(self._entries[number], code // 2, code % 2 == 1)
+
+    def entries(self) -> Iterator[Entry]:
+        """Yield each entry that has a form, once; decoding all forms takes far longer."""
+        for number in {code // _FORM_CODES for code in self._codes.values()}:
+            yield self._entries[number]
 
     def __contains__(self, text: object) -> bool:
         return text in self._codes

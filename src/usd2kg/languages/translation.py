@@ -148,8 +148,8 @@ def _read_word(word: str, language: str) -> _Word:
 @lru_cache(maxsize=1)
 def _english_nouns() -> frozenset[str]:
     """Return the words of the English glosses, without adjectives (`central`), which languages share."""
-    forms = chain.from_iterable(lexicon.words.values() for lexicon in load_lexicons().values())
-    return frozenset(word for form in forms if form.entry.role != "adjective" for word in form.entry.english)
+    entries = chain.from_iterable(lexicon.words.entries() for lexicon in load_lexicons().values())
+    return frozenset(word for entry in entries if entry.role != "adjective" for word in entry.english)
 
 
 def _in_english_order(terms: list[_Term], language: str) -> tuple[str, ...]:

@@ -4,7 +4,6 @@ from collections.abc import Iterator, Mapping
 from pathlib import Path, PurePosixPath, PureWindowsPath
 from urllib.parse import unquote
 from xml.etree import ElementTree
-from xml.sax.saxutils import quoteattr
 
 from usd2kg.errors import OntologyError
 from usd2kg.ontology.source_files import ENDINGS, decode_text, read_source
@@ -69,6 +68,8 @@ def _entries(root: ElementTree.Element) -> Iterator[ElementTree.Element]:
 
 def format_catalog(files: Mapping[str, str]) -> str:
     """Return the XML of a catalog that maps IRIs to files in its folder."""
+    from xml.sax.saxutils import quoteattr  # noqa: PLC0415 - loads the HTTP client
+
     lines = [f"  <uri name={quoteattr(iri)} uri={quoteattr(file)}/>" for iri, file in files.items()]
     return "\n".join(
         [

@@ -16,6 +16,7 @@ Array = NDArray[np.float64]
 Indices = NDArray[np.int64]
 _SHIFT = 0.37
 """In cells: keeps faces at round multiples of a cell off the boundaries of cells, where rounding would tear them."""
+_MAX_SHORT = 1 << 16
 Corners = tuple[Array, Array]
 """Lower and upper corner (3,) of a box."""
 
@@ -59,11 +60,15 @@ def _sample_cells(surface: Surface, cell: float) -> _Cells:
     which = np.ravel_multi_index(tuple(place.T), shape)
     count = int(np.prod(shape))
     lower, upper = np.full((count, 3), np.inf), np.full((count, 3), -np.inf)
-    # Sorting is faster than the ufuncs' `at`.
-    order = np.argsort(which, kind="stable")
-    met, starts = np.unique(which[order], return_index=True)
-    lower[met] = np.minimum.reduceat(points[order], starts)
-    upper[met] = np.maximum.reduceat(points[order], starts)
+    # Sorting is faster than the ufuncs' `at`, above all sorting short integers.
+    order = np.argsort(which.astype(np.uint16) if count <= _MAX_SHORT else which, kind="stable")
+    ordered = which[order]
+    starts = np.flatnonzero(np.diff(ordered, prepend=-1))
+    met = ordered[starts]
+    for axis in range(3):
+        column = points[order, axis]
+        lower[met, axis] = np.minimum.reduceat(column, starts)
+        upper[met, axis] = np.maximum.reduceat(column, starts)
     is_met = np.isfinite(lower[:, 0])
     return _Cells(is_met.reshape(shape), lower.reshape(*shape, 3), upper.reshape(*shape, 3))
 

@@ -10,9 +10,6 @@ import pyoxigraph as ox
 from usd2kg.errors import GraphError
 from usd2kg.files import write_whole
 from usd2kg.graph.abox import KnowledgeGraph
-from usd2kg.graph.export.graphml import graphml_pieces
-from usd2kg.graph.export.property_graph import read_property_graph
-from usd2kg.graph.formats.rdf_xml import rdf_xml_pieces
 from usd2kg.graph.rdf_document import RDF_FORMATS, GraphDocument, document_of, refuse_rdf12
 from usd2kg.graph.vocabulary import PREFIXES
 from usd2kg.ontology import write_functional_syntax
@@ -155,6 +152,9 @@ def _bytes(data: bytes | None) -> bytes:
 
 
 def _rdf_xml(document: GraphDocument) -> Chunks:
+    # Writers of XML load the HTTP client.
+    from usd2kg.graph.formats.rdf_xml import rdf_xml_pieces  # noqa: PLC0415
+
     return rdf_xml_pieces(document.triples, document.prefixes, document.source)
 
 
@@ -173,6 +173,9 @@ def _functional(document: GraphDocument) -> Chunks:
 
 
 def _graphml(document: GraphDocument) -> Chunks:
+    from usd2kg.graph.export.graphml import graphml_pieces  # noqa: PLC0415
+    from usd2kg.graph.export.property_graph import read_property_graph  # noqa: PLC0415
+
     return graphml_pieces(read_property_graph(document))
 
 
