@@ -45,3 +45,28 @@ def test_lines_of_several_surfaces_are_numbered_in_order():
         (2, 10),
         (2, 11),
     }
+
+
+@pytest.mark.parametrize("axis", [0, 1, 2])
+def test_each_line_is_tested_against_each_triangle_of_its_surface_only(axis: int):
+    random = np.random.default_rng(axis)
+    first, second = (other for other in range(3) if other != axis)
+    surfaces = [surface_of(random.integers(0, 9, (30, 3)), random.integers(0, 30, (40, 3))) for _ in range(3)]
+    # Halves lie at the ends of some triangles, and on their edges.
+    points = [random.integers(0, 18, (count, 3)) / 2 for count in (50, 1, 20)]
+    expected, start = set(), 0
+    for lines, surface in zip(points, surfaces, strict=True):
+        for number, line in enumerate(lines):
+            for a, b, c in surface.corners:
+                matrix = np.array(
+                    [[b[first] - a[first], c[first] - a[first]], [b[second] - a[second], c[second] - a[second]]]
+                )
+                if abs(np.linalg.det(matrix)) > 1e-9:
+                    s, t = np.linalg.solve(matrix, [line[first] - a[first], line[second] - a[second]])
+                    if min(s, t) >= -1e-9 and s + t <= 1 + 1e-9:
+                        at = a[axis] + s * (b[axis] - a[axis]) + t * (c[axis] - a[axis])
+                        expected.add((start + number, round(float(at), 6)))
+        start += len(lines)
+    found = find_crossings(points, surfaces, axis)
+    assert {(line, round(at, 6)) for line, at in zip(found.line.tolist(), found.at.tolist(), strict=True)} == expected
+    assert len(expected) > 20
