@@ -263,10 +263,10 @@ def test_commands_show_their_steps(command, steps, monkeypatch, room, graph, tmp
     assert shown[-1] == "closed"
 
 
-def test_json_has_no_bar(monkeypatch, room, graph, run_main):
+def test_json_has_no_bar(monkeypatch, room, graph, run_main, tmp_path):
     monkeypatch.setattr(progress, "_choose_bar", lambda: pytest.fail("a bar was chosen"))
     for command in (
-        ["build", room, "-o", "x.ttl"],
+        ["build", room, "-o", str(tmp_path / "x.ttl")],
         ["query", graph, "on", "cup"],
         ["inspect", room],
         ["diff", graph, graph],
