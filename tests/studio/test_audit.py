@@ -1,5 +1,6 @@
 """The audit: a random sample of all objects, and what its verdicts say about the suggestions."""
 
+from contextlib import closing
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
@@ -10,10 +11,13 @@ from tests.studio.conftest import Client, running_studio
 from tests.studio.test_application import CUP_1, FLOOR, TABLE, THING, class_index, decide
 from tests.studio.test_lessons import MORE
 from usd2kg.evaluation.metrics.intervals import wilson_interval
+from usd2kg.evaluation.settings import PLATT_FIT
 from usd2kg.grounding import Prediction, Status
 from usd2kg.grounding.model import Review
-from usd2kg.studio.audit import audit_json, make_audit
+from usd2kg.studio.audit import audit_json, fit_audit, make_audit
 from usd2kg.studio.object_review import ObjectReview, ReviewStatus, suggestion_of
+from usd2kg.studio.open_session import open_session
+from usd2kg.studio.project import ProjectSources, open_project
 from usd2kg.studio.review_state import ReviewState
 from usd2kg.studio.settings import AUDIT
 from usd2kg.studio.verdicts import OPEN, Verdict, VerdictKind
@@ -42,6 +46,23 @@ def judged(states: list[ObjectReview]) -> ReviewState:
 
 def given(iri: str | None) -> Verdict:
     return Verdict(VerdictKind.CLASS if iri is not None else VerdictKind.NO_CLASS, iri)
+
+
+def test_verdicts_calibrate_confidences_if_they_tell_enough():
+    # 12 of 15 confident suggestions are right, and 3 of 15 doubtful ones.
+    verdicts = [(0.95, at < 12) for at in range(15)] + [(0.5, at < 3) for at in range(15)]
+    states = [state(str(n), sure, given(CUP if right else BOWL)) for n, (sure, right) in enumerate(verdicts)]
+    audit = make_audit(states, judged(states).standing())
+    scaling = fit_audit(audit)
+    assert scaling is not None
+    # Two groups and two parameters: the fit meets Platt's smoothed shares, with targets 16/17 and 1/17.
+    shares = [(12 * 16 / 17 + 3 / 17) / 15, (3 * 16 / 17 + 12 / 17) / 15]
+    assert [scaling(0.95), scaling(0.5)] == pytest.approx(shares, abs=1e-3)
+    assert audit_json(audit)["calibrated_on"] == 30
+    few = states[:10]
+    assert fit_audit(make_audit(few, judged(few).standing())) is None
+    inverted = [state(str(n), 1.45 - sure, given(CUP if ok else BOWL)) for n, (sure, ok) in enumerate(verdicts)]
+    assert fit_audit(make_audit(inverted, judged(inverted).standing())) is None
 
 
 def test_the_figures_are_those_of_a_hand_calculation():
@@ -166,3 +187,28 @@ def test_an_audit_is_about_its_sample(studio: Client, monkeypatch: pytest.Monkey
     assert "found str, expected bool" in studio.ask("api/decisions", {**body, "audit": "yes"}).json()["error"]
     assert studio.ask("api/decisions", {**body, "objects": first["objects"]}).status == 200
     assert studio.ask("api/queue?order=audit").json()["groups"] != [first]
+
+
+def test_written_files_have_calibrated_confidences(stage: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch):
+    monkeypatch.setattr("usd2kg.evaluation.calibrate.PLATT_FIT", replace(PLATT_FIT, min_answers=2))
+    with (
+        open_project(tmp_path / "project", ProjectSources(stage)) as project,
+        closing(open_session(project)) as session,
+    ):
+        raw = {path: prediction.confidence for path, prediction in session.predictions.items()}
+        sure, doubtful = max(raw, key=lambda path: raw[path] or 0.0), min(raw, key=lambda path: raw[path] or 1.0)
+        cupboard = next(iri for iri in session.tbox.by_iri if iri.endswith("Cupboard"))
+        session.decide({sure: given(session.predictions[sure].class_iri)}, "Ann", 0, is_audit=True)
+        session.decide({doubtful: given(cupboard)}, "Ann", 1, is_audit=True)
+        scaling = fit_audit(session.audit())
+        assert scaling is not None
+        written = session.grounding()
+        assert written.is_calibrated
+        for path, prediction in written.by_path.items():
+            confidence = raw[path]
+            assert confidence is not None
+            assert prediction.confidence == (1.0 if path in {sure, doubtful} else scaling(confidence))
+        # On the page, suggestions keep the confidences by which they are sorted.
+        assert {path: p.confidence for path, p in session.predictions.items()} == raw
+        session.undo("Ann")
+        assert {p.confidence for p in session.grounding().predictions} <= {1.0, *raw.values()}

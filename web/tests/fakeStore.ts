@@ -42,6 +42,7 @@ export const QUEUE: Queue = {
     right: 0,
     interval: null,
     calibration_error: null,
+    calibrated_on: 0,
     with_confidence: 0,
     bins: [],
   },

@@ -68,19 +68,18 @@ def parse_intent(text: str) -> Phrase | None:
 
 def _parse(text: str, intent: _Intent) -> Phrase | None:
     question, argument, cue, is_english = intent
-    if cue.search(text) is not None:
-        given = _measured(text, cue) if question == "measure" else {}
-        phrase = _noun_phrase(cue.sub(f" {_BREAK} ", text))
-        if argument == "pair":
-            pair = _PAIR.fullmatch(phrase)
-            other = (pair["other"] or pair["next"]) if pair is not None else ""
-            if pair is None or _BREAK in pair["thing"] + other:
-                return None
-            return Phrase(question, {"thing": pair["thing"], "other": other}, is_english)
-        if not phrase or _BREAK in phrase:
-            return None
-        return Phrase(question, {argument: phrase, **given}, is_english)
-    return None
+    if cue.search(text) is None:
+        return None
+    phrase = _noun_phrase(cue.sub(f" {_BREAK} ", text))
+    if argument == "pair":
+        pair = _PAIR.fullmatch(phrase)
+        given = {"thing": pair["thing"], "other": pair["other"] or pair["next"]} if pair is not None else {}
+    else:
+        given = {argument: phrase} if phrase else {}
+    if not given or any(_BREAK in noun for noun in given.values()):
+        return None
+    measured = _measured(text, cue) if question == "measure" else {}
+    return Phrase(question, {**given, **measured}, is_english)
 
 
 def _measured(text: str, cue: re.Pattern[str]) -> dict[str, str]:

@@ -43,6 +43,10 @@ from usd2kg.query.unicode_text import check_text
 
 __all__ = ["ask_offline"]
 
+_PRONOUN = re.compile(r"\b(it|them|they)\b|(?<=there )one\b|(?<=find )one\b|(?<=see )one\b", re.IGNORECASE)
+_STOP_WORDS = word_set("assistant", "fillers") | word_set("query", "connectives")
+"""Words that are in no noun."""
+
 
 def ask_offline(graph: GraphStore, text: str, since: Path | None = None) -> InterpretedAnswer:
     """Return the answer to a question in English; frequent questions in German, French, Spanish and Italian too.
@@ -60,10 +64,6 @@ def ask_offline(graph: GraphStore, text: str, since: Path | None = None) -> Inte
     check_text(text, "question")
     found = [*match_phrases(text), *filter(None, [parse_intent(text)])]
     return _Answerer(graph, not found or found[0].is_english, since).answer(text)
-
-
-_PRONOUN = re.compile(r"\b(it|them|they)\b|(?<=there )one\b|(?<=find )one\b|(?<=see )one\b", re.IGNORECASE)
-_STOP_WORDS = word_set("assistant", "fillers") | word_set("query", "connectives")
 
 
 class _Answerer:

@@ -81,12 +81,20 @@ def the_thing(kind: str, label: str) -> str:
 
 
 def plural(noun: str) -> str:
-    """Return the plural of a noun, approximately."""
+    """Return the plural of a noun, approximately.
+
+    >>> plural("knife"), plural("bookshelf"), plural("glass"), plural("chest of drawers")
+    ('knives', 'bookshelves', 'glasses', 'chests of drawers')
+    """
+    noun, of, rest = noun.partition(" of ")
+    if of:
+        return f"{plural(noun)}{of}{rest}"
     *before, last = noun.split()
     if last in _SAME_PLURAL or (last.endswith("s") and not last.endswith("ss")):
         return noun
-    if last in IRREGULAR_PLURALS:
-        many = IRREGULAR_PLURALS[last]
+    irregular = next((one for one in IRREGULAR_PLURALS if last.endswith(one)), None)
+    if irregular is not None:
+        many = last.removesuffix(irregular) + IRREGULAR_PLURALS[irregular]
     elif last.endswith(("s", "x", "z", "ch", "sh")):
         many = f"{last}es"
     elif last.endswith("y") and last[-2:-1] not in "aeiou":

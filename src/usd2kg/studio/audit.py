@@ -9,15 +9,18 @@ from collections.abc import Iterable
 from dataclasses import asdict, dataclass
 from typing import Any
 
+from usd2kg.errors import EvaluationError
 from usd2kg.evaluation import Score
+from usd2kg.evaluation.calibrate import fit_scaling
 from usd2kg.evaluation.metrics.calibration import calibration_error, reliability_bins
 from usd2kg.evaluation.metrics.intervals import wilson_interval
+from usd2kg.grounding import PlattScaling
 from usd2kg.grounding.lexical.alignment.artificial_root import NO_CLASS_IRI
 from usd2kg.studio.object_review import ObjectReview
 from usd2kg.studio.settings import AUDIT
 from usd2kg.studio.verdicts import Event, Suggestion, VerdictKind
 
-__all__ = ["Audit", "audit_json", "make_audit"]
+__all__ = ["Audit", "audit_json", "fit_audit", "make_audit"]
 
 
 @dataclass(frozen=True, slots=True)
@@ -84,10 +87,23 @@ def _score(state: ObjectReview, suggested: Suggestion | None) -> Score:
     )
 
 
+def fit_audit(audit: Audit) -> PlattScaling | None:
+    """Return the scaling of confidences that the verdicts suggest.
+
+    None if the verdicts are too few, all right or all wrong, or if less confident suggestions are right more often.
+    """
+    try:
+        scaling = fit_scaling(audit.scores, "the suggestions of this project, by a random audit")
+    except EvaluationError:
+        return None
+    return scaling if scaling.slope > 0 else None
+
+
 def audit_json(audit: Audit) -> dict[str, Any]:
     """Return the figures of an audit as the page shows them; see `web/src/api/types.ts`."""
     scores = audit.scores
     right = sum(score.is_exact for score in scores)
+    scaling = fit_audit(audit)
     return {
         "population": audit.population,
         "sample": len(audit.sample),
@@ -97,6 +113,7 @@ def audit_json(audit: Audit) -> dict[str, Any]:
         "right": right,
         "interval": wilson_interval(right, len(scores)) if scores else None,
         "calibration_error": calibration_error(scores),
+        "calibrated_on": 0 if scaling is None else scaling.answers,
         "with_confidence": sum(score.confidence is not None for score in scores),
         "bins": [asdict(found) for found in reliability_bins(scores)],
     }

@@ -12,7 +12,7 @@ from usd2kg.errors import GroundingError
 from usd2kg.files import write_whole
 from usd2kg.graph import KnowledgeGraph, instantiate
 from usd2kg.graph.iris import default_base
-from usd2kg.grounding import Grounding, Prediction, apply_decisions, ground, make_grounder, read_grounding
+from usd2kg.grounding import Grounding, Prediction, Status, apply_decisions, ground, make_grounder, read_grounding
 from usd2kg.grounding.built_in_choice import stated_places
 from usd2kg.ontology import TBox
 from usd2kg.pipeline import open_tbox
@@ -20,7 +20,7 @@ from usd2kg.query import GraphStore
 from usd2kg.relations import Relation, find_relations
 from usd2kg.scene import ReadOptions, Scene, read_scene
 from usd2kg.scene.stage import open_stage
-from usd2kg.studio.audit import Audit, make_audit
+from usd2kg.studio.audit import Audit, fit_audit, make_audit
 from usd2kg.studio.journal import Journal
 from usd2kg.studio.lessons import Lesson, find_lessons, format_lessons
 from usd2kg.studio.object_review import ObjectReview, state_of, suggestion_of
@@ -221,8 +221,16 @@ class StudioSession:
     # What follows.
 
     def grounding(self) -> Grounding:
-        """Return the grounding with all decisions."""
-        return apply_decisions(self.suggestions, self.review.decisions(), self.scene, self.tbox)
+        """Return the grounding with all decisions; an audit calibrates the confidences of the open objects."""
+        decided = apply_decisions(self.suggestions, self.review.decisions(), self.scene, self.tbox)
+        scaling = fit_audit(self.audit())
+        if scaling is None:
+            return decided
+        predictions = tuple(
+            p if p.confidence is None or p.status is Status.REVIEWED else replace(p, confidence=scaling(p.confidence))
+            for p in decided.predictions
+        )
+        return replace(decided, predictions=predictions, is_calibrated=True)
 
     def graph(self) -> KnowledgeGraph:
         """Return the graph of the current decisions; it is built when it is first needed after a decision."""

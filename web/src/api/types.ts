@@ -245,6 +245,8 @@ export interface Audit {
   /** Expected calibration error of the judged objects with a confidence; null without any. */
   calibration_error: number | null;
   with_confidence: number;
+  /** Number of verdicts by which confidences in written files are calibrated; 0 if they are too few or do not allow it. */
+  calibrated_on: number;
   /** Non-empty bins of confidence, lowest first; `accuracy` is the share that is right. */
   bins: { lower: number; upper: number; count: number; confidence: number; accuracy: number }[];
 }

@@ -16,7 +16,10 @@ export function AuditFigures({ audit }: { audit: Audit | undefined }) {
       {error !== null && (
         <>
           <p>
-            Expected calibration error {error.toFixed(3)}, n = {audit.with_confidence}
+            Expected calibration error {error.toFixed(3)}, n = {audit.with_confidence}.{" "}
+            {audit.calibrated_on > 0
+              ? `Written files have confidences of open objects that are calibrated on ${audit.calibrated_on} of these verdicts.`
+              : "Written files keep the confidences of the grounder."}
           </p>
           <table>
             <thead>

@@ -60,8 +60,12 @@ class Nouns:
         self._is_english = is_english
         self._kinds = Kinds(facts)
         self._spelling = Spelling(facts, self._kinds)
-        self._modifiers = PhraseModifiers(facts, self._find)
         self._names = NameMatcher(facts, self._kinds)
+
+    @property
+    def _modifiers(self) -> PhraseModifiers:
+        # An attribute would be a reference cycle, which keeps the graph until the next full garbage collection.
+        return PhraseModifiers(self._facts, self._find)
 
     def find(self, text: str, *, may_shorten: bool = True) -> Things:
         """Return the objects that a noun phrase means.
