@@ -94,3 +94,39 @@ def test_what_cannot_be_answered_is_said(room: GraphStore, question: str, said: 
     with pytest.raises(GraphError, match=said):
         asked = ask_offline(room, question)
         raise GraphError(asked.sentence)
+
+
+@pytest.mark.parametrize(
+    ("question", "expected"),
+    [
+        ("which chairs have nothing on them?", ["Chair_A", "Chair_B"]),
+        ("which tables have no cups on them?", []),
+        ("what is the tallest?", ["Wardrobe"]),
+        ("what is taller than chair a?", ["Wardrobe"]),
+        ("what are the Two tallest things?", ["Wardrobe", "Chair_A"]),
+        ("which chairs are within 1 m of a chair?", ["Chair_A", "Chair_B"]),
+    ],
+)
+def test_what_is_denied_or_compared_is_kept(room: GraphStore, question: str, expected: list[str]):
+    assert [row[0] for row in ask_offline(room, question).answer.rows] == expected
+
+
+@pytest.mark.parametrize(
+    ("question", "verdict"),
+    [
+        ("are all cups on the table?", True),
+        ("is every chair near the table?", False),
+        ("are there exactly two cups?", True),
+        ("are there exactly one cups?", False),
+        ("is chair b nearer to the table than to the wardrobe?", True),
+        ("is chair b nearer to the wardrobe than to the table?", False),
+    ],
+)
+def test_quantifiers(room: GraphStore, question: str, verdict: bool):
+    assert ask_offline(room, question).verdict is verdict
+
+
+@pytest.mark.parametrize("question", ["is there no cup?", "is nothing on the table?", "what is opposite the table?"])
+def test_what_would_be_inverted_or_dropped_is_refused(room: GraphStore, question: str):
+    with pytest.raises(GraphError):
+        ask_offline(room, question)

@@ -11,6 +11,7 @@ from usd2kg.assistant.sentences import (
     join_few,
     name_things,
     number_text,
+    plural,
     yes_or_no,
 )
 from usd2kg.errors import GraphError
@@ -38,12 +39,13 @@ class ComparisonAnswers:
             "choose": self._choose,
             "more": self._more,
             "limit": self._limit,
+            "bigger-things": self._bigger_things,
             "more-than": self._more_than,
             "fits": self._fits,
         }
         return handlers.get(question)
 
-    def _superlative(self, adjective: str, kind: str, count: str = "1") -> InterpretedAnswer:
+    def _superlative(self, adjective: str, kind: str = "things", count: str = "1") -> InterpretedAnswer:
         """Return the things that come first by a measure, with those that are equal to the last of them."""
         things = self._nouns.existing(kind)
         measure, sign = {**COMPARED, **SUPERLATIVES}[adjective.lower()]
@@ -52,14 +54,18 @@ class ComparisonAnswers:
             raise self._bodies.unmeasured(things, measure)
         facts = self._facts
         order = sorted(values, key=lambda iri: (-sign * values[iri], facts.path(iri)))
-        last = values[order[: NUMBER_WORDS.get(count) or int(count)][-1]]
+        last = values[order[: NUMBER_WORDS.get(count.lower()) or int(count)][-1]]
         best = [iri for iri in order if sign * values[iri] >= sign * last]
         known = (
             f" of the {len(values)} whose mass is known" if measure is MASS and len(values) < len(things.iris) else ""
         )
         labels = join_few([facts.label(iri) for iri in best])
         amount = "" if measure is SIZE or count != "1" else f", {number_text(last, measure.unit)}"
-        shown = f"The {adjective.lower()} {things.text}" if count == "1" else f"The {count} {adjective} {things.text}"
+        shown = (
+            f"The {adjective.lower()} {things.text}"
+            if count == "1"
+            else f"The {count} {adjective} {plural(things.text)}"
+        )
         sentence = f"{shown}{known}: {labels}{amount}{things.suffix}."
         column = {"mass_kg" if measure is MASS else "bottom_m" if measure is ELEVATION else f"{measure.name}_m": values}
         return InterpretedAnswer(
@@ -134,6 +140,13 @@ class ComparisonAnswers:
             is_so,
             sentence=yes_or_no(is_so, f"there are {counts}{first.suffix}{second.suffix}."),
         )
+
+    def _bigger_things(self, adjective: str, thing: str) -> InterpretedAnswer:
+        """Return all things that have more or less of something than another."""
+        things = self._nouns.find(f"things {adjective.lower()} than {thing}")
+        named = name_things(self._facts, things.iris) or "nothing"
+        sentence = f"{named} {'is' if len(things.iris) < 2 else 'are'} {adjective} than {thing}."
+        return InterpretedAnswer(things.text, self._facts.table(things.iris), sentence=begin_sentence(sentence))
 
     def _more_than(self, kind: str, adjective: str, count: str) -> InterpretedAnswer:
         """Return whether there are more or fewer things of a kind than a number."""

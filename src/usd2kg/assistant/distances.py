@@ -38,6 +38,7 @@ class DistanceAnswers:
             "elevation": self._elevation,
             "is-nearer": self._is_nearer,
             "nearer": self._nearer,
+            "nearer-than": self._nearer_than,
             "passes": self._passes,
             "rise": self._rise,
         }
@@ -87,6 +88,21 @@ class DistanceAnswers:
             f"which is nearer to {anchors.text}: {choices[0].text} or {choices[1].text}",
             self._facts.table(chosen),
             sentence=begin_sentence(f"{said}: {how}{anchors.suffix}."),
+        )
+
+    def _nearer_than(self, thing: str, other: str, third: str) -> InterpretedAnswer:
+        """Return whether a thing is nearer to one than to another."""
+        anchors = self._nouns.existing(thing)
+        near, far = (self._nouns.existing(text) for text in (other, third))
+        own, rival = (min(self._gaps(choice, anchors).values()) for choice in (near, far))
+        how = (
+            f"{anchors.text} is {number_text(own, 'm')} from {near.text} and {number_text(rival, 'm')} from {far.text}"
+        )
+        return InterpretedAnswer(
+            f"whether {anchors.text} is nearer to {near.text} than to {far.text}",
+            self._facts.table(anchors.iris),
+            own < rival,
+            sentence=yes_or_no(own < rival, f"{how}{anchors.suffix}."),
         )
 
     def _is_nearer(self, thing: str, other: str, third: str) -> InterpretedAnswer:

@@ -47,6 +47,7 @@ class MeasureAnswers:
             "are-color": self._are_like,
             "are-kind": self._are_kind,
             "purpose": self._purpose,
+            "is-color": self._is_color,
             "is-material": self._is_material,
             "put": self._put,
             "openable": self._openable,
@@ -171,13 +172,21 @@ class MeasureAnswers:
             kinds = set(self._nouns.find(adjective).iris)
             chosen = [iri for iri in things.iris if iri in kinds]
         sentence = begin_sentence(f"{name_things(facts, chosen) if chosen else f'no {things.text}'}: {word}.")
-        return InterpretedAnswer(f"{things.text} that are {word}", facts.table(chosen), sentence=sentence)
+        return InterpretedAnswer(
+            f"{things.text} that are {word}", facts.table(chosen), number=len(chosen), sentence=sentence
+        )
+
+    def _is_color(self, thing: str, adjective: str) -> InterpretedAnswer:
+        found, things = self._color(thing), self._nouns.existing(thing)
+        is_so = all(has_color(self._facts, iri, adjective.lower()) for iri in things.iris)
+        sentence = yes_or_no(is_so, found.sentence)
+        return InterpretedAnswer(f"whether {things.text} is {adjective}", found.answer, is_so, sentence=sentence)
 
     def _are_kind(self, kind: str) -> InterpretedAnswer:
         word = kind.lower().split()[-1]
         if word in COLORS or is_material(word):
             return self._are_like("things", word)
-        things = self._nouns.find(kind)
+        things = self._nouns.find(kind, may_shorten=False)
         if not things.iris and not concepts_named(things.text):
             # A monthly rent: words that name things, and together none.
             raise UnknownWordError(f"{things.text!r} is not a thing that the lexicon knows")

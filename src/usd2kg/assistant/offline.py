@@ -37,13 +37,18 @@ from usd2kg.query.answer import join_answers
 from usd2kg.query.lookup import Nouns, Things, UnknownWordError
 from usd2kg.query.lookup.amounts import UNIT_SYMBOLS
 from usd2kg.query.lookup.body_measures import BodyMeasures
-from usd2kg.query.lookup.word_forms import is_plural, singular, split_phrase
+from usd2kg.query.lookup.prepositions import RELATION_OF
+from usd2kg.query.lookup.word_forms import is_noun, is_plural, singular, split_phrase
 from usd2kg.query.questions import list_questions
 from usd2kg.query.unicode_text import check_text
 
 __all__ = ["ask_offline"]
 
 _PRONOUN = re.compile(r"\b(it|them|they)\b|(?<=there )one\b|(?<=find )one\b|(?<=see )one\b", re.IGNORECASE)
+_LINKS = word_set("query", "connectives") | RELATION_OF.keys()
+"""Words that lead to the modifier of a noun."""
+_ANTECEDENT_WORDS = 20
+"""Words before a pronoun among which its noun is looked for."""
 _STOP_WORDS = word_set("assistant", "fillers") | word_set("query", "connectives")
 """Words that are in no noun."""
 
@@ -110,22 +115,23 @@ class _Answerer:
         readers: list[Callable[[], InterpretedAnswer]] = [partial(self._answer_phrase, phrase) for phrase in phrases]
         readers += [partial(self._answer_intent, intent)] if intent is not None else []
         readers += [] if readers else [lambda: self._list(self._nouns.find(normalize(text), may_shorten=False))]
-        failed: list[GraphError] = []
+        problem = ""
         for read in readers:
             try:
                 return read()
             except UnknownWordError as error:
-                # A pattern may have taken other words for a part of the noun.
-                failed.append(error)
+                # A pattern may have taken other words for a part of the noun. The error itself would be a reference
+                # cycle, which keeps the graph.
+                problem = problem or str(error)
         if (clause := self._with_antecedent(text)) is not None:
             return self.answer(clause)
         if phrases:
-            raise failed[0]
+            raise UnknownWordError(problem)
         raise GraphError(
-            f"question {text!r} is not understood ({failed[0]}); expected a question like 'what is on the table?', "
+            f"question {text!r} is not understood ({problem}); expected a question like 'what is on the table?', "
             "'where is the kettle?', 'how many cups are there?' or 'what must be moved to open the drawer?' "
             "(usd2kg query --list shows more); or let a language model write the query with --model"
-        ) from failed[0]
+        )
 
     def _with_antecedent(self, text: str) -> str | None:
         """Return the clause with a pronoun, and in its place a noun of the clauses before; None if there is none."""
@@ -133,7 +139,7 @@ class _Answerer:
         for at, clause in reversed([*enumerate(clauses)][1:]):
             if (pronoun := _PRONOUN.search(clause)) is None:
                 continue
-            words = " ".join(clauses[:at]).split()
+            words = " ".join(clauses[:at]).split()[-_ANTECEDENT_WORDS:]
             runs = (words[end - size : end] for size in range(4, 0, -1) for end in range(len(words), size - 1, -1))
             named = (" ".join(run) for run in runs if not _STOP_WORDS.intersection(word.lower() for word in run))
             many = pronoun[0].lower() in {"them", "they"}
@@ -180,7 +186,8 @@ class _Answerer:
         return self._list(self._nouns.find(kind))
 
     def _list(self, things: Things) -> InterpretedAnswer:
-        if not things.iris and not concepts_named(things.text):
+        is_modified = not _LINKS.isdisjoint(things.text.split())
+        if not things.iris and not is_modified and not concepts_named(things.text):
             raise UnknownWordError(f"{things.text!r} is not a thing that the lexicon knows")
         return self._things.answer(things)
 
@@ -190,7 +197,9 @@ class _Answerer:
         count = len(things.iris)
         verb = "is" if count == 1 else "are"
         *before, last = things.text.split() or ["thing"]
-        named = " ".join([*before, singular(last)]) if count == 1 else plural(things.text)
+        named = " ".join([*before, singular(last)]) if count == 1 else things.text
+        if count != 1 and is_noun(things.text):
+            named = plural(things.text)
         sentence = f"There {verb} {count} {named}{things.suffix}." if count else f"{begin_sentence(things.absence)}."
         return InterpretedAnswer(
             f"number of {things.text}", self._things.located(things.iris), number=count, sentence=sentence
@@ -204,12 +213,12 @@ class _Answerer:
         sentence = f"There are {len(facts.things)} objects of {len(counts)} classes."
         return InterpretedAnswer("number of objects of each class", table, number=len(facts.things), sentence=sentence)
 
-    def _is_there(self, kind: str) -> InterpretedAnswer:
-        count, kind = split_number(kind)
+    def _is_there(self, kind: str, count: str = "") -> InterpretedAnswer:
+        exact, kind = split_number(f"{count} {kind}" if count else kind)
         things = self._nouns.find(kind, may_shorten=False)
         self._things.check_kind(things)
         answer = self._things.answer(things)
-        yes = len(things.iris) >= count
+        yes = len(things.iris) == exact if count else len(things.iris) >= exact
         said = yes_or_no(yes, answer.sentence)
         return InterpretedAnswer(f"whether there is {things.text}", answer.answer, yes, sentence=said)
 

@@ -1,5 +1,6 @@
 """Answers about relations: what is on, in, near, above, between or beside others."""
 
+import re
 from collections.abc import Callable, Sequence
 
 from usd2kg.assistant.directions import find_beside, find_between
@@ -32,6 +33,7 @@ PREPOSITIONS = {
     "behind": "behind",
 }
 """Relation → preposition."""
+_ALL = re.compile(r"(all|every|each|both|everything)\b", re.IGNORECASE)
 _BY_BOXES = frozenset(["above", "left", "right", "front", "behind"])
 """Relations that the boxes tell where the graph states none."""
 
@@ -63,6 +65,9 @@ class RelationAnswers:
 
     def _rel_some(self, relation: str, thing: str = "", kind: str = "things", other: str = "") -> InterpretedAnswer:
         if other:
+            if denied := re.fullmatch(r"(?:nothing|no (?P<noun>.+))", other, re.IGNORECASE):
+                what = f"without {denied['noun']}" if denied["noun"] else "with nothing on"
+                return self._things.answer(self._nouns.find(f"{kind} {what}"))
             # “Which chairs have a cushion on them?”: the anchors.
             anchors, targets = self._nouns.find(kind), set(self._nouns.find(other).iris)
             name = RELATION_OF[relation.lower()]
@@ -77,10 +82,15 @@ class RelationAnswers:
         )
 
     def _rel_is(self, kind: str, relation: str, thing: str) -> InterpretedAnswer:
-        count, kind = split_number(kind)
-        found = self._related(relation, thing, kind)
-        yes = len(found.answer.rows) >= count
-        said = yes_or_no(yes, found.sentence)
+        count, noun = split_number(kind)
+        found = self._related(relation, thing, noun)
+        many = len(found.answer.rows)
+        yes, share = many >= count, ""
+        if _ALL.match(kind):
+            anchors = set(self._nouns.find(thing).iris)
+            total = sum(iri not in anchors for iri in self._nouns.find(noun).iris)
+            yes, share = 0 < total == many, f" ({many} of {total})"
+        said = yes_or_no(yes, f"{found.sentence.removesuffix('.')}{share}.")
         return InterpretedAnswer(f"whether {found.understood}", found.answer, yes, sentence=said)
 
     def _related(self, relation: str, thing: str, kind: str | None) -> InterpretedAnswer:

@@ -52,7 +52,13 @@ class ChangedFiles:
         state = self._state(path)
         if state is None or not file.sha256:
             return True
-        return state != (file.bytes, file.modified_ns) and (state[0] != file.bytes or self._hash(path) != file.sha256)
+        if state == (file.bytes, file.modified_ns):
+            return False
+        try:
+            return state[0] != file.bytes or self._hash(path) != file.sha256
+        except OSError:
+            # The build of the scene says what is wrong.
+            return True
 
 
 def _state(path: Path) -> tuple[int, int] | None:

@@ -102,7 +102,7 @@ def _file(path: Path, scene: str, entry: Mapping[str, Any]) -> ManifestFile:
 
 
 def _checked_name(path: Path, name: str) -> str:
-    if not _NAME.fullmatch(name):
+    if not _NAME.fullmatch(name) or name.lower() == "matrix.toml":
         raise EvaluationError(
             f"{path}: {name!r} is no name of a file or folder; expected letters, digits, spaces, `.`, `_` and `-`, "
             "relative to the folder of the scene"

@@ -167,10 +167,15 @@ def _read_stored(cell: Cell, inputs: _Inputs, store: Path) -> CellResult | None:
     """Return the result whose answers are in a file; None if there is none."""
     if not store.exists() or not _cost_file(store).exists():
         return None
-    data = json.loads(_cost_file(store).read_text("utf-8"))
+    try:
+        data = json.loads(_cost_file(store).read_text("utf-8"))
+        seconds = float(data["seconds"])
+        cost = ModelCost.from_json(data["model"]) if data["model"] is not None else None
+    except (ValueError, TypeError, KeyError):
+        # Written by another version, or cut off.
+        return None
     grounding = read_grounding(store)
-    evaluation = score_grounding(grounding, inputs.gold, inputs.tbox, data["seconds"], missed=inputs.missed)
-    cost = ModelCost.from_json(data["model"]) if data["model"] is not None else None
+    evaluation = score_grounding(grounding, inputs.gold, inputs.tbox, seconds, missed=inputs.missed)
     return CellResult(cell, evaluation, was_stored=True, cost=cost)
 
 

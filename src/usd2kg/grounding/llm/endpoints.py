@@ -51,7 +51,10 @@ def _find_azure(environment: Mapping[str, str]) -> str:
             f"in {_AZURE_VARIABLE}"
         )
     is_dated = bool(environment.get(API_VERSION_VARIABLE, "").strip())
-    return url if is_dated or url.endswith("/v1") else f"{url}/openai/v1"
+    if url.endswith("/v1"):
+        return url
+    url = url.removesuffix("/openai")
+    return url if is_dated else f"{url}/openai/v1"
 
 
 def _find_bedrock(environment: Mapping[str, str]) -> str:

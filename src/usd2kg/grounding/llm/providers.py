@@ -138,7 +138,8 @@ def _make_azure(reference: ModelReference, access: Access) -> "Model[Any]":
     from pydantic_ai.providers.azure import AzureProvider  # noqa: PLC0415
 
     # None if the URL is that of the undated API.
-    version = access.environment.get(API_VERSION_VARIABLE, "").strip() or None
+    is_undated = (reference.url or "").endswith("/v1")
+    version = None if is_undated else access.environment.get(API_VERSION_VARIABLE, "").strip() or None
     provider = AzureProvider(
         azure_endpoint=reference.url, api_version=version, api_key=access.key, http_client=access.http
     )

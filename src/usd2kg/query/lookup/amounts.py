@@ -10,8 +10,10 @@ __all__ = ["NUMBER_NAMES", "NUMBER_WORDS", "UNIT_SYMBOLS", "is_amount", "read_am
 NUMBER_NAMES = ("no", "one", "two", "three", "four", "five", "six", "seven", "eight", "nine", "ten", "eleven", "twelve")
 NUMBER_WORDS = {word: number for number, word in enumerate(NUMBER_NAMES) if number}
 
-_AMOUNT = re.compile(rf"(?P<number>\d*\.?\d+|an?|half an?|{'|'.join(NUMBER_WORDS)}) ?(?P<unit>[a-z\"]*)", re.IGNORECASE)
-_ARTICLES = {"a": 1.0, "an": 1.0, "half a": 0.5, "half an": 0.5}
+_AMOUNT = re.compile(
+    rf"(?P<number>\d*\.?\d+|half an?|half|an?|{'|'.join(NUMBER_WORDS)}) ?(?P<unit>[a-z\"]*)", re.IGNORECASE
+)
+_ARTICLES = {"a": 1.0, "an": 1.0, "half": 0.5, "half a": 0.5, "half an": 0.5}
 
 _UNIT_SIZES = {
     "m": ("m", 1.0),

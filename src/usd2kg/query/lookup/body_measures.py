@@ -4,6 +4,7 @@ from collections.abc import Callable, Iterable, Mapping, Sequence
 from typing import NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
 from usd2kg.errors import GraphError
 from usd2kg.knowledge import word_map
@@ -101,18 +102,28 @@ class BodyMeasures:
 
     def gaps(self, iris: Iterable[str], anchors: Sequence[str]) -> dict[str, float]:
         """Return the distances between boxes in metres, to the nearest anchor; things without a box are left out."""
+        boxes = {anchor: box for anchor in anchors if (box := self._box(anchor)) is not None}
+        if not boxes:
+            return {}
+        numbers = {anchor: number for number, anchor in enumerate(boxes)}
+        lower, upper = (np.array([box[end] for box in boxes.values()]) for end in (0, 1))
         found: dict[str, float] = {}
         for iri in iris:
-            distances = [gap for anchor in anchors if iri != anchor and (gap := self._gap(iri, anchor)) is not None]
-            if distances:
-                found[iri] = min(distances)
+            box = self._box(iri)
+            if box is None or boxes.keys() == {iri}:
+                continue
+            gaps = np.linalg.norm(np.maximum(np.maximum(lower - box[1], box[0] - upper), 0), axis=1)
+            if iri in numbers:
+                gaps[numbers[iri]] = np.inf
+            found[iri] = round(float(gaps.min()), 4)
         return found
 
-    def _gap(self, one: str, other: str) -> float | None:
-        a, b = self._facts.body(one), self._facts.body(other)
-        if a.lower is None or a.upper is None or b.lower is None or b.upper is None:
+    def _box(self, iri: str) -> tuple[NDArray[np.float64], NDArray[np.float64]] | None:
+        """Return the corners of the box of a thing; None without one."""
+        body = self._facts.body(iri)
+        if body.lower is None or body.upper is None or not np.isfinite([*body.lower, *body.upper]).all():
             return None
-        return round(float(np.linalg.norm(np.maximum(np.maximum(a.lower - b.upper, b.lower - a.upper), 0))), 4)
+        return body.lower, body.upper
 
     def values(self, iris: Iterable[str], measure: Measure) -> dict[str, float]:
         """Return the measure of each thing that has it."""

@@ -67,7 +67,7 @@ class PhraseModifiers:
         measure, sign = SUPERLATIVES[adjective]
         values = self._measured(things, measure)
         best = max((sign * value for value in values.values()), default=0.0)
-        return Things(tuple(iri for iri in things.iris if sign * values.get(iri, 0.0) == best), text)
+        return Things(tuple(iri for iri in things.iris if iri in values and sign * values[iri] == best), text)
 
     def read(self, text: str) -> Things | None:
         """Return the things of a noun with another modifier; None if there is none, or a word is unknown."""
@@ -175,7 +175,7 @@ class PhraseModifiers:
             raise GraphError(f"{parts['amount']!r} is not a distance; expected a length, such as 2 m")
         if not second.iris:
             raise GraphError(second.absence)
-        gaps = self._bodies.gaps((iri for iri in first.iris if iri not in second.iris), second.iris)
+        gaps = self._bodies.gaps(first.iris, second.iris)
         is_beyond = parts["which"] in _BEYOND
         return Things(tuple(iri for iri, gap in gaps.items() if (gap > limit) is is_beyond), text)
 
@@ -188,7 +188,7 @@ class PhraseModifiers:
                 continue
             if not second.iris:
                 raise GraphError(second.absence)
-            gaps = self._bodies.gaps((iri for iri in first.iris if iri not in second.iris), second.iris)
+            gaps = self._bodies.gaps(first.iris, second.iris)
             sign = -1 if parts is not None and parts["which"] in {"furthest", "farthest"} else 1
             chosen = min(gaps, key=lambda iri: (sign * gaps[iri], self._facts.path(iri)), default=None)
             return Things((chosen,) if chosen is not None else (), text)

@@ -10,6 +10,7 @@ from usd2kg.errors import GraphError
 from usd2kg.grounding import concepts_named, hypernyms_of
 from usd2kg.knowledge import word_set
 from usd2kg.languages import translate
+from usd2kg.query.lookup.body_measures import COMPARED, SUPERLATIVES
 from usd2kg.query.lookup.corrections import Spelling
 from usd2kg.query.lookup.facts import SceneFacts
 from usd2kg.query.lookup.kinds import Kinds
@@ -28,6 +29,7 @@ __all__ = ["Nouns"]
 
 _DETERMINERS = word_set("query", "determiners")
 _EVERYTHING = word_set("query", "general_nouns")
+_NEGATIONS = word_set("query", "negations")
 _QUESTION_WORDS = word_set("query", "question_words")
 _FRAMES = word_set("query", "framing_nouns")
 _CONNECTIVES = word_set("query", "connectives")
@@ -91,6 +93,8 @@ class Nouns:
             words = words[1:]
         if not words:
             raise UnknownWordError(f"{exact!r} names no thing; expected a noun, such as table")
+        if words[0] in _NEGATIONS:
+            raise UnknownWordError(f"{words[0]!r} is not understood in a name")
         foreign = [
             word
             for last, word in zip(["", *words], words, strict=False)
@@ -102,6 +106,10 @@ class Nouns:
         found = self._find(" ".join(words))
         if found is not None and found.iris:
             return self._of_this_name(text, found)
+        if denied := _NEGATIONS.intersection(words):
+            if found is not None:
+                return found
+            raise UnknownWordError(f"{min(denied)!r} is not understood in a name")
         return self._translated(words, found) or self._shortened(words, may_shorten) or found or self._correct(words)
 
     def _translated(self, words: Sequence[str], found: Things | None) -> Things | None:
@@ -327,6 +335,8 @@ class Nouns:
     def _joined(self, text: str) -> Things | None:
         """Return the things of several nouns: `cups and plates`; none, with the first noun that nothing is."""
         nouns = re.split(r",? (?:and|or) |, ", text)
+        if any(map(restricts, nouns)):
+            return None
         found = [self._find(" ".join(split_phrase(noun))) for noun in nouns] if len(nouns) > 1 else []
         if not found or any(things is None for things in found):
             return None
@@ -341,6 +351,8 @@ class Nouns:
         Raises:
             UnknownWordError: no spelling, or several, are near.
         """
+        if measures := [word for word in words if word in SUPERLATIVES or word in COMPARED]:
+            raise UnknownWordError(f"{measures[0]!r} is not understood without a noun")
         corrected, unknown, nearest = self._spelling.correct(words, self._is_known)
         if corrected != words and (found := self._find(" ".join(corrected))) is not None and found.iris:
             return replace(found, note=f"“{' '.join(words)}” was read as “{' '.join(corrected)}”")
