@@ -15,7 +15,7 @@ from usd2kg.evaluation.matrix import Cell, Matrix, SceneSpec
 from usd2kg.evaluation.matrix_grounders import MatrixGrounders, open_grounders
 from usd2kg.evaluation.metrics.selection_scores import SelectionScore
 from usd2kg.evaluation.model_cost import ModelCost
-from usd2kg.evaluation.recording import restore_recording, write_recording
+from usd2kg.evaluation.recording import RECORDING, restore_recording, write_recording
 from usd2kg.evaluation.run import Evaluation, evaluate, score_grounding, score_scene_selection
 from usd2kg.files import write_whole
 from usd2kg.grounding import Grounder, Status, format_mapping, read_grounding
@@ -92,16 +92,19 @@ def run_matrix(
         by_scene.setdefault(cell.scene.name, []).append(cell)
     if matrix.language_models:
         restore_recording(folder, settings)
-    results = []
+    results, skipped = [], False
     with open_grounders(matrix, settings, model_progress) as grounders:
         runner = _Runner(grounders, folder, refresh, progress)
         for cells in by_scene.values():
             spec = cells[0].scene
             if spec.missing is not None:
                 logger.warning("scene %s skipped: %s does not exist", spec.name, spec.missing)
+                skipped = True
                 continue
             results.append(runner.run_scene(spec, cells))
-    if keys := {key for result in results for done in result.cells if done.cost for key in done.cost.keys}:
+    keys = {key for result in results for done in result.cells if done.cost for key in done.cost.keys}
+    # A recording of more scenes, from a machine that has them, is kept.
+    if keys and not (skipped and (folder / RECORDING).exists()):
         write_recording(folder, settings, keys)
     return results
 

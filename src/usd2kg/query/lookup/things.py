@@ -1,11 +1,17 @@
 """Things: the objects that words mean."""
 
+import re
 from dataclasses import dataclass
 
 from usd2kg.errors import GraphError
+from usd2kg.query.lookup.prepositions import preposition_pattern
 from usd2kg.query.lookup.word_forms import is_plural
 
 __all__ = ["Things", "UnknownWordError"]
+
+
+_MODIFIER = re.compile(rf" (?:with|without|of|within|nearest|closest|furthest|farthest|{preposition_pattern()})\b")
+"""Where the modifier after a noun begins."""
 
 
 class UnknownWordError(GraphError):
@@ -32,4 +38,5 @@ class Things:
     @property
     def absence(self) -> str:
         """The clause that there are no such things."""
-        return f"there {'are' if is_plural(self.text) else 'is'} no {self.text} in this scene{self.suffix}"
+        noun = _MODIFIER.split(self.text, maxsplit=1)[0]
+        return f"there {'are' if is_plural(noun) else 'is'} no {self.text} in this scene{self.suffix}"
