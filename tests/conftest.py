@@ -7,6 +7,7 @@ import signal
 import tempfile
 from collections.abc import Callable, Generator
 from pathlib import Path
+from typing import Any
 
 import pytest
 from _pytest.doctest import DoctestModule
@@ -96,3 +97,12 @@ def read(write_stage) -> Callable[..., Scene]:
         return read_scene(write_stage(layer + "\n".join(prims), name), **options)
 
     return run
+
+
+@pytest.fixture(scope="module")
+def browser() -> Generator[Any]:
+    """A headless Chromium; modules that use it have the marks `BROWSER_MARKS`."""
+    from tests.browser import launch_browser  # noqa: PLC0415 - few tests need Playwright
+
+    with launch_browser() as found:
+        yield found

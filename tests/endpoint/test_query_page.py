@@ -5,25 +5,12 @@ from pathlib import Path
 from urllib.parse import quote
 
 import pytest
-from playwright.sync_api import Browser, Page, expect, sync_playwright
+from playwright.sync_api import Browser, Page, expect
 
+from tests.browser import BROWSER_MARKS
 from tests.endpoint.conftest import HOSTILE, PATHS
-from tests.studio.conftest import needs_page
-from tests.studio.test_browser import CHROMIUM
 
-pytestmark = [
-    pytest.mark.studio,
-    pytest.mark.skipif(CHROMIUM is None, reason="needs Chromium, in CHROMIUM or on the path"),
-    needs_page,
-]
-
-
-@pytest.fixture(scope="module")
-def browser() -> Iterator[Browser]:
-    with sync_playwright() as playwright:
-        found = playwright.chromium.launch(executable_path=CHROMIUM, args=["--no-sandbox"])
-        yield found
-        found.close()
+pytestmark = BROWSER_MARKS
 
 
 @pytest.fixture

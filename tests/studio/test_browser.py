@@ -1,14 +1,11 @@
 """The studio in a real browser, by keyboard alone."""
 
-import os
-import shutil
-from collections.abc import Iterator
 from pathlib import Path
 
-import pytest
-from playwright.sync_api import Browser, Page, expect, sync_playwright
+from playwright.sync_api import Browser, Page, expect
 
-from tests.studio.conftest import HOSTILE, KEY, STAGE, Client, needs_page, running_studio
+from tests.browser import BROWSER_MARKS, close_page, open_page
+from tests.studio.conftest import HOSTILE, KEY, STAGE, running_studio
 from usd2kg.demo import demo_scene
 from usd2kg.graph import write_graph
 from usd2kg.grounding import read_decisions
@@ -16,42 +13,7 @@ from usd2kg.ontology import load_home_tbox
 from usd2kg.pipeline import build
 from usd2kg.query import load_graph
 
-CHROMIUM = os.environ.get("CHROMIUM") or shutil.which("chromium") or shutil.which("google-chrome")
-pytestmark = [
-    pytest.mark.studio,
-    pytest.mark.skipif(CHROMIUM is None, reason="needs Chromium, in CHROMIUM or on the path"),
-    needs_page,
-]
-SOFTWARE_GL = ["--use-angle=swiftshader", "--enable-unsafe-swiftshader", "--ignore-gpu-blocklist", "--no-sandbox"]
-
-
-@pytest.fixture(scope="module")
-def browser() -> Iterator[Browser]:
-    with sync_playwright() as playwright:
-        found = playwright.chromium.launch(executable_path=CHROMIUM, args=SOFTWARE_GL)
-        yield found
-        found.close()
-
-
-def open_page(browser: Browser, client: Client, reviewer: str = "") -> Page:
-    context = browser.new_context(viewport={"width": 1440, "height": 900})
-    page = context.new_page()
-    problems: list[str] = []
-    page.on("pageerror", lambda error: problems.append(str(error)))
-    page.on("console", lambda message: problems.append(message.text) if message.type == "error" else None)
-    page.goto(f"{client.address}#token={KEY}")
-    expect(page.locator(".queue-row").first).to_be_visible()
-    page.wait_for_selector("html[data-geometry=loaded]")
-    if reviewer:
-        page.get_by_label("Reviewer").fill(reviewer)
-        page.keyboard.press("Enter")
-    page.problems = problems  # type: ignore[attr-defined]
-    return page
-
-
-def close_page(page: Page) -> None:
-    assert page.problems == []  # type: ignore[attr-defined]
-    page.context.close()
+pytestmark = BROWSER_MARKS
 
 
 def group_title(page: Page) -> str:

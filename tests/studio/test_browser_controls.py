@@ -4,24 +4,12 @@ from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
-from playwright.sync_api import Browser, Page, expect, sync_playwright
+from playwright.sync_api import Browser, Page, expect
 
-from tests.studio.conftest import KEY, Client, needs_page, running_studio
-from tests.studio.test_browser import CHROMIUM, SOFTWARE_GL, close_page, open_page
+from tests.browser import BROWSER_MARKS, close_page, open_page
+from tests.studio.conftest import KEY, Client, running_studio
 
-pytestmark = [
-    pytest.mark.studio,
-    pytest.mark.skipif(CHROMIUM is None, reason="needs Chromium, in CHROMIUM or on the path"),
-    needs_page,
-]
-
-
-@pytest.fixture(scope="module")
-def browser() -> Iterator[Browser]:
-    with sync_playwright() as playwright:
-        found = playwright.chromium.launch(executable_path=CHROMIUM, args=SOFTWARE_GL)
-        yield found
-        found.close()
+pytestmark = BROWSER_MARKS
 
 
 @pytest.fixture(scope="module")

@@ -5,16 +5,12 @@ from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
-from playwright.sync_api import Browser, Page, ViewportSize, expect, sync_playwright
+from playwright.sync_api import Browser, Page, ViewportSize, expect
 
-from tests.studio.conftest import Client, needs_page, running_studio
-from tests.studio.test_browser import CHROMIUM, SOFTWARE_GL, close_page, open_page
+from tests.browser import BROWSER_MARKS, close_page, open_page
+from tests.studio.conftest import Client, running_studio
 
-pytestmark = [
-    pytest.mark.studio,
-    pytest.mark.skipif(CHROMIUM is None, reason="needs Chromium, in CHROMIUM or on the path"),
-    needs_page,
-]
+pytestmark = BROWSER_MARKS
 
 SIZES = [(1920, 1080), (1400, 860), (1100, 700), (1000, 700), (800, 900), (600, 900)]
 LONG_REVIEWER = "https://orcid.org/0000-0002-1825-0097"
@@ -61,14 +57,6 @@ FIND_CLIPPED = """() => {
   if (document.documentElement.scrollWidth > innerWidth) problems.push("the page is wider than the window");
   return problems;
 }"""
-
-
-@pytest.fixture(scope="module")
-def browser() -> Iterator[Browser]:
-    with sync_playwright() as playwright:
-        found = playwright.chromium.launch(executable_path=CHROMIUM, args=SOFTWARE_GL)
-        yield found
-        found.close()
 
 
 @pytest.fixture(scope="module")

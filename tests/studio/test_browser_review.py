@@ -2,23 +2,18 @@
 
 from pathlib import Path
 
-import pytest
 from playwright.sync_api import Browser, expect
 
-from tests.studio.conftest import HOSTILE, needs_page, running_studio
-from tests.studio.test_browser import CHROMIUM, browser, close_page, open_page  # noqa: F401 - a fixture
+from tests.browser import BROWSER_MARKS, close_page, open_page
+from tests.studio.conftest import HOSTILE, running_studio
 from tests.studio.test_disagreement import write_second
 from usd2kg.demo import demo_scene
 from usd2kg.ontology import load_tbox
 
-pytestmark = [
-    pytest.mark.studio,
-    pytest.mark.skipif(CHROMIUM is None, reason="needs Chromium, in CHROMIUM or on the path"),
-    needs_page,
-]
+pytestmark = BROWSER_MARKS
 
 
-def test_a_concept_is_decided_in_one_stroke(browser: Browser, tmp_path: Path):  # noqa: F811
+def test_a_concept_is_decided_in_one_stroke(browser: Browser, tmp_path: Path):
     with running_studio(demo_scene(), tmp_path / "project") as client:
         page = open_page(browser, client)
         page.keyboard.press("Control+k")
@@ -51,7 +46,7 @@ def test_a_concept_is_decided_in_one_stroke(browser: Browser, tmp_path: Path):  
         close_page(page)
 
 
-def test_a_missing_class_is_proposed(browser: Browser, stage: Path, tmp_path: Path):  # noqa: F811
+def test_a_missing_class_is_proposed(browser: Browser, stage: Path, tmp_path: Path):
     folder = tmp_path / "project"
     with running_studio(stage, folder) as client:
         page = open_page(browser, client)
@@ -79,7 +74,7 @@ def test_a_missing_class_is_proposed(browser: Browser, stage: Path, tmp_path: Pa
     assert proposed.comment == "2 objects, such as /Kitchen/Cup_1"
 
 
-def test_the_queue_begins_where_the_grounders_disagree(browser: Browser, stage: Path, tmp_path: Path):  # noqa: F811
+def test_the_queue_begins_where_the_grounders_disagree(browser: Browser, stage: Path, tmp_path: Path):
     second = write_second(stage, tmp_path / "second.json")
     with running_studio(stage, tmp_path / "project", second=second) as client:
         page = open_page(browser, client)
@@ -95,7 +90,7 @@ def test_the_queue_begins_where_the_grounders_disagree(browser: Browser, stage: 
         close_page(page)
 
 
-def test_a_random_sample_is_audited(browser: Browser, tmp_path: Path):  # noqa: F811
+def test_a_random_sample_is_audited(browser: Browser, tmp_path: Path):
     with running_studio(demo_scene(), tmp_path / "project") as client:
         page = open_page(browser, client)
         expect(page.locator(".queue-row .confidence").first).not_to_be_empty()

@@ -1,33 +1,20 @@
 """The 3D view in a real browser: what its pixels show."""
 
 import io
-from collections.abc import Iterator
 from pathlib import Path
 
 import numpy as np
 import pytest
 from numpy.typing import NDArray
-from playwright.sync_api import Browser, Page, expect, sync_playwright
+from playwright.sync_api import Browser, Page, expect
 
-from tests.studio.conftest import needs_page, running_studio
-from tests.studio.test_browser import CHROMIUM, SOFTWARE_GL, close_page, open_page
+from tests.browser import BROWSER_MARKS, close_page, open_page
+from tests.studio.conftest import running_studio
 from tests.studio.test_textures import poster
 from usd2kg.demo import demo_scene
 
 Image = pytest.importorskip("PIL.Image")
-pytestmark = [
-    pytest.mark.studio,
-    pytest.mark.skipif(CHROMIUM is None, reason="needs Chromium, in CHROMIUM or on the path"),
-    needs_page,
-]
-
-
-@pytest.fixture(scope="module")
-def browser() -> Iterator[Browser]:
-    with sync_playwright() as playwright:
-        found = playwright.chromium.launch(executable_path=CHROMIUM, args=SOFTWARE_GL)
-        yield found
-        found.close()
+pytestmark = BROWSER_MARKS
 
 
 def view_of(page: Page) -> NDArray[np.int16]:
