@@ -299,7 +299,8 @@ class EmbeddedStore:
 
     def _add(self, store: ox.Store, quads: Iterable[ox.Quad]) -> None:
         """Add quads to the store: all of them or, if the process dies, none."""
-        # Loading by the engine's own parser would rename the blank nodes.
+        # The engine adds them at once, which its documentation does not promise: a test kills it at many moments.
+        # Loading by its own parser would rename the blank nodes.
         store.bulk_extend(quads)
         store.flush()
 
