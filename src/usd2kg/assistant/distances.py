@@ -160,7 +160,7 @@ class DistanceAnswers:
 
     def _floor_level(self) -> float:
         """Return the height of the floor, or of the lowest thing, in metres."""
-        bodies = [self._facts.body(iri) for iri in self._nouns.find("floor").iris]
+        bodies = [self._facts.body(iri) for iri in self._nouns.known("floor")]
         tops = [float(body.upper[2]) for body in bodies if body.upper is not None]
         return min(tops) if tops else float(np.nanmin(self._facts.bodies.table.lower[:, 2]))
 

@@ -4,6 +4,7 @@ import re
 from collections.abc import Sequence
 from functools import cache
 from importlib.resources import files
+from itertools import count
 from typing import NamedTuple
 
 from usd2kg.assistant.phrases import HEADINGS, Phrase, normalize, split_clauses
@@ -18,7 +19,8 @@ _BREAK = "|"
 _FILLERS = word_set("assistant", "fillers")
 _NO_SENSE = re.compile(
     r"\b(in|as) (square |cubic )?(cm|mm|m|kg|centimet(er|re)s|met(er|re)s|kilograms|kilos|inches|feet)\b"
-    r"|\b(one|some|any|each|all|both) of (the |them |these )?|\b(piece|pieces|pair|set) of\b|\bfor me\b",
+    r"|\b(one|some|any|each|all|both) of (the |them |these )?|\b(piece|pieces|pair|set) of\b|\bfor me\b"
+    r"|\b(of |i mean )?(both|all|any|every) (kind|type|sort|model)s?\b",
     re.IGNORECASE,
 )
 """Phrases that do not change the answer."""
@@ -31,6 +33,10 @@ _LINKED = re.compile(rf"(?: ?\{_BREAK})* (?={_LINK}\b)|(?:^|(?<= ))({_LINK})(?: 
 _LOOSE = re.compile(r"^(?:(?:of|and|or|to|for|from) )+|(?: (?:of|and|or|to|for|from))+$")
 """Links without a noun on one side."""
 _PAIR = re.compile(r"(?:between |from |of )?(?P<thing>.+?) (?:(?:and|to|from|or|\|) (?P<other>.+)|(?P<next>\S+))")
+
+
+_MEASURES = frozenset(["adjective", "area", "noun", "square"])
+"""Groups of a cue that name a measure."""
 
 
 class _Intent(NamedTuple):
@@ -46,7 +52,9 @@ def _intents() -> Sequence[_Intent]:
     for line in (files("usd2kg.assistant") / "intents.txt").read_text("utf-8").splitlines():
         is_english = HEADINGS.get(line, is_english)
         if found := re.fullmatch(r"([\w-]+) (class|thing|pair): (.+)", line):
-            intents.append(_Intent(found[1], found[2], re.compile(found[3], re.IGNORECASE), is_english))
+            numbers = count()
+            cue = re.sub(r"\.\*\??", lambda wild: f"(?P<inner_{next(numbers)}>{wild[0]})", found[3])  # noqa: B023
+            intents.append(_Intent(found[1], found[2], re.compile(cue, re.IGNORECASE), is_english))
     return tuple(intents)
 
 
@@ -62,15 +70,18 @@ def parse_intent(text: str) -> Phrase | None:
     whole = normalize(text)
     clauses = (whole, *reversed(split_clauses(whole)))
     # A clause with a clear cue tells more than the last one.
-    found = (_parse(clause, intent) for intent in _intents() for clause in clauses)
-    return next((phrase for phrase in found if phrase is not None), None)
+    found = ((at, _parse(clause, intent)) for intent in _intents() for at, clause in enumerate(clauses))
+    at, phrase = next(((at, phrase) for at, phrase in found if phrase is not None), (0, None))
+    others = tuple(reversed([clause for other, clause in enumerate(clauses) if other not in (0, at)]))
+    return phrase if phrase is None or not at else phrase._replace(left=others)
 
 
 def _parse(text: str, intent: _Intent) -> Phrase | None:
     question, argument, cue, is_english = intent
     if cue.search(text) is None:
         return None
-    phrase = _noun_phrase(cue.sub(f" {_BREAK} ", text))
+    # Words within a cue are a part of the noun phrase: which of the doors opens.
+    phrase = _noun_phrase(cue.sub(lambda found: f" {_BREAK} {_inner_words(found)} {_BREAK} ", text))
     if argument == "pair":
         pair = _PAIR.fullmatch(phrase)
         given = {"thing": pair["thing"], "other": pair["other"] or pair["next"]} if pair is not None else {}
@@ -82,10 +93,17 @@ def _parse(text: str, intent: _Intent) -> Phrase | None:
     return Phrase(question, {**given, **measured}, is_english)
 
 
+def _inner_words(found: re.Match[str]) -> str:
+    """Return the words that `.*` of a cue matched."""
+    return " ".join(value for name, value in found.groupdict().items() if name.startswith("inner_") and value)
+
+
 def _measured(text: str, cue: re.Pattern[str]) -> dict[str, str]:
     """Return the measure that a question names; the size if it names several."""
     words = {
-        word.lower() for found in cue.finditer(text) if (word := next(filter(None, found.groupdict().values()), ""))
+        word.lower()
+        for found in cue.finditer(text)
+        if (word := next((value for name, value in found.groupdict().items() if value and name in _MEASURES), ""))
     }
     return {"adjective": words.pop() if len(words) == 1 else "size"}
 

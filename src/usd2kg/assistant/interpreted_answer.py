@@ -1,6 +1,6 @@
 """InterpretedAnswer: an answer in words, with the table and the interpretation of its question."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 from usd2kg.query import Answer
@@ -30,6 +30,10 @@ class InterpretedAnswer(RichDisplay):
         result = {"verdict": self.verdict, "number": self.number, "places": list(self.places) or None}
         known = {key: value for key, value in result.items() if value is not None}
         return {"understood": self.understood, "sentence": self.sentence, **known}
+
+    def with_sentence(self, sentence: str) -> "InterpretedAnswer":
+        """Return the same answer with another sentence."""
+        return replace(self, sentence=sentence)
 
     def summary(self) -> str:
         """Return the sentence as a line; empty if there is none."""

@@ -92,7 +92,7 @@ class MeasureAnswers:
 
     def _measure_scene(self, text: str, measure: Measure) -> InterpretedAnswer:
         """Return a measure of the box around the walls and floors, or around all things if there are none."""
-        shells = {iri for noun in ("floor", "wall") for iri in self._nouns.find(noun, may_shorten=False).iris}
+        shells = {iri for noun in ("floor", "wall") for iri in self._nouns.known(noun)}
         bodies = [self._facts.body(iri) for iri in shells or self._facts.things]
         lower = [body.lower for body in bodies if body.lower is not None]
         upper = [body.upper for body in bodies if body.upper is not None]
@@ -224,12 +224,12 @@ class MeasureAnswers:
     def _free_tops(self, text: str, size: tuple[float, float, float], moved: tuple[str, ...]) -> InterpretedAnswer:
         """Return the level tops with room for a thing of a size in metres; `moved` takes no room."""
         facts, (width, depth, _) = self._facts, size
-        floors = set(self._nouns.find("floor").iris)
+        floors = set(self._nouns.known("floor"))
         surfaces = [iri for iri in facts.things if iri in facts.supporters and iri not in moved and iri not in floors]
         usual = {
             iri
             for noun in sorted(word_set("assistant", "surface_nouns"))
-            for iri in self._nouns.find(noun, may_shorten=False).iris
+            for iri in self._nouns.known(noun)
         }
         found = find_free_places(facts, size, surfaces, moved)
         # A seat and a rug are level too, but people put things on tables.
@@ -276,7 +276,7 @@ class MeasureAnswers:
         found = moved or {
             iri
             for noun in word_set("assistant", "closed_things")
-            for iri in self._nouns.find(noun, may_shorten=False).iris
+            for iri in self._nouns.known(noun)
         }
         if self._nouns.is_everything(kind):
             chosen = facts.sorted(found)

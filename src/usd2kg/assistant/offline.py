@@ -4,10 +4,10 @@ import math
 import re
 from collections.abc import Callable, Collection, Mapping
 from dataclasses import replace
-from functools import partial
 from pathlib import Path
 
 from usd2kg.assistant.comparisons import ComparisonAnswers
+from usd2kg.assistant.coverage import check_left, with_notes
 from usd2kg.assistant.describe import description_answer
 from usd2kg.assistant.distances import DistanceAnswers
 from usd2kg.assistant.intents import parse_intent
@@ -112,13 +112,14 @@ class _Answerer:
     def answer(self, text: str) -> InterpretedAnswer:
         """Return the answer to a question, by its pattern, else by its cue, or to a noun alone, such as `laptops?`."""
         phrases, intent = match_phrases(text), parse_intent(text)
-        readers: list[Callable[[], InterpretedAnswer]] = [partial(self._answer_phrase, phrase) for phrase in phrases]
-        readers += [partial(self._answer_intent, intent)] if intent is not None else []
-        readers += [] if readers else [lambda: self._list(self._nouns.find(normalize(text), may_shorten=False))]
+        readers = [(self._answer_phrase, phrase) for phrase in phrases]
+        readers += [(self._answer_intent, intent)] if intent is not None else []
+        readers += [] if readers else [(self._answer_noun, Phrase("noun", {"thing": normalize(text)}))]
         problem = ""
-        for read in readers:
+        for read, phrase in readers:
+            self._nouns.notes.clear()
             try:
-                return read()
+                return with_notes(read(phrase), phrase, text, self._nouns.notes)
             except UnknownWordError as error:
                 # A pattern may have taken other words for a part of the noun. The error itself would be a reference
                 # cycle, which keeps the graph.
@@ -166,8 +167,12 @@ class _Answerer:
             raise GraphError(found.sentence or f"there is nothing in this scene: {found.understood}")
         return found
 
+    def _answer_noun(self, noun: Phrase) -> InterpretedAnswer:
+        return self._list(self._nouns.find(noun.given["thing"], may_shorten=False))
+
     def _answer_phrase(self, phrase: Phrase) -> InterpretedAnswer:
-        question, given, _ = phrase
+        check_left(phrase)
+        question, given = phrase.question, phrase.given
         finders = (
             self._handlers.get,
             self._measures.find,

@@ -4,6 +4,7 @@ import re
 from collections.abc import Mapping, Sequence
 from functools import cache
 from importlib.resources import files
+from itertools import count
 from typing import NamedTuple
 
 from usd2kg.query.lookup.amounts import NUMBER_WORDS
@@ -20,6 +21,8 @@ class Phrase(NamedTuple):
     given: Mapping[str, str]
     """Parameter → its text in the question; omitted parameters are missing."""
     is_english: bool = True
+    left: tuple[str, ...] = ()
+    """Parts of the question that the interpretation does not use: other clauses, and what `.*` of a pattern matched."""
 
 
 _PARAMETERS = {
@@ -38,13 +41,14 @@ _POLITE = re.compile(
     r"(please|pls|(can|could) you(?! (see|find|spot|have)\b)|would you|"
     r"tell me(?! about)|is it true that|can it be that|(can|could) (someone|somebody|anyone|anybody) (tell me|say)|"
     r"(i|we) (want|need|would like|have) to know|i'd like to know|i wonder|do you know|let me know|"
-    r"find out|check|if|whether|hey|hi|hello|robot|ok|so|sorry|excuse me|"
+    r"find out|check|see|hey|hi|hello|robot|ok|okay|oh|so|well|sorry|excuse me|"
     r"and|bitte|s'il te plaît|por favor|per favore),?\s+(please )?",
     re.IGNORECASE,
 )
 _TRAILING = re.compile(
     r",?\s+(please|pls|thanks|thank you|bitte|in total|altogether|all together|overall|in all|anywhere|at all|exactly|"
-    r"right now|currently|for me|yes or no|or not|i mean|"
+    r"right now|currently|for me|yes or no|or not|i mean|right|correct|or what|(is not|isn't|aren't) (it|there|they)|"
+    r"if (you have|there is|there's) (one|any|some)|what are my options|any ideas?|what do you (suggest|think)|"
     r"in (square |cubic )?(cm|mm|m|kg|(centi|milli)?met(er|re)s|kilograms|kilos|inches|feet))$",
     re.IGNORECASE,
 )
@@ -61,6 +65,8 @@ _PLACED = re.compile(
 """Participles that add nothing to the preposition after them."""
 HEADINGS = {"# German, French, Spanish and Italian.": False, "# English.": True}
 """Heading of patterns → whether they are English."""
+_LEFT = "left_"
+"""Begins the names of groups for what a pattern leaves out."""
 _CLAUSE_END = re.compile(r"[,;!?:] | -+ ")
 _APOSTROPHE = "\u2019"
 
@@ -85,7 +91,8 @@ def _expand(pattern: str, words: Mapping[str, str]) -> str:
     """Return a pattern with all `<word>` definitions expanded recursively; group names `(?P<name>` are kept."""
     while (expanded := re.sub(r"(?<!\?P)<(\w+)>", lambda found: words[found[1]], pattern)) != pattern:
         pattern = expanded
-    return pattern
+    numbers = count()
+    return re.sub(r"\.[*+]\??", lambda found: f"(?P<{_LEFT}{next(numbers)}>{found[0]})", pattern)
 
 
 def match_phrases(text: str) -> list[Phrase]:
@@ -95,8 +102,12 @@ def match_phrases(text: str) -> list[Phrase]:
     [Phrase(question='rel-what', given={'relation': 'on', 'thing': 'the table'}, is_english=True)]
     """
     whole = normalize(text)
+    clauses = split_clauses(whole)
     # A remark before or after the question: I have some rubbish, where can I throw it away?
-    found = map(_match, (whole, *reversed(split_clauses(whole))))
+    found = [
+        _match(whole),
+        *(_match(clause, (*clauses[:at], *clauses[at + 1 :])) for at, clause in reversed([*enumerate(clauses)])),
+    ]
     # A noun over two clauses is the last resort: where is the oven, please?
     return sorted(
         (phrase for phrase in found if phrase is not None),
@@ -104,11 +115,13 @@ def match_phrases(text: str) -> list[Phrase]:
     )
 
 
-def _match(asked: str) -> Phrase | None:
+def _match(asked: str, others: Sequence[str] = ()) -> Phrase | None:
     for question, pattern, is_english in list_phrases():
         if found := pattern.fullmatch(asked):
-            given = {name: value.strip() for name, value in found.groupdict().items() if value}
-            return Phrase(question, given, is_english)
+            groups = {name: value.strip() for name, value in found.groupdict().items() if value}
+            given = {name: value for name, value in groups.items() if not name.startswith(_LEFT)}
+            unused = [value for name, value in groups.items() if name.startswith(_LEFT) and value]
+            return Phrase(question, given, is_english, (*others, *unused))
     return None
 
 
@@ -125,8 +138,12 @@ def split_clauses(text: str) -> list[str]:
 def normalize(text: str) -> str:
     """Return a question on one line, without what is only polite."""
     asked = " ".join(text.replace(_APOSTROPHE, "'").split()).strip(" ?!.,¿¡")
+    whole = asked
     while polite := _POLITE.match(asked):
         asked = asked[polite.end() :]
+    if asked != whole:
+        # “If” is a part of “tell me if”; alone, it begins a condition.
+        asked = re.sub(r"^(if|whether) ", "", asked, flags=re.IGNORECASE)
     while (shorter := _TRAILING.sub("", asked).strip(" ?!.,")) != asked:
         asked = shorter
     asked = _COMMENT.sub("", asked).strip(" ?!.,")

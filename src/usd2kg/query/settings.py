@@ -48,6 +48,7 @@ class WordSettings:
     min_similarity: float
     min_letters: int
     max_label_share: float
+    min_general_share: float
 
 
 @dataclass(frozen=True)

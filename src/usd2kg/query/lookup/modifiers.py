@@ -162,7 +162,8 @@ class PhraseModifiers:
             if not self._facts.related(name, iri).isdisjoint(second.iris)
             or not set(self._facts.anchors(name, iri)).isdisjoint(second.iris)
         }
-        return Things(tuple(iri for iri in first.iris if iri not in having), text)
+        note = "" if having else f"“without {second.text}” excludes nothing"
+        return Things(tuple(iri for iri in first.iris if iri not in having), text, note)
 
     def _read_within(self, text: str) -> Things | None:
         """Return the things up to a distance from others, or beyond: `chairs within 2 m of the desk`."""

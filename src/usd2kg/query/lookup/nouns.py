@@ -13,6 +13,7 @@ from usd2kg.languages import translate
 from usd2kg.query.lookup.body_measures import COMPARED, SUPERLATIVES
 from usd2kg.query.lookup.corrections import Spelling
 from usd2kg.query.lookup.facts import SceneFacts
+from usd2kg.query.lookup.general_kinds import find_more_general
 from usd2kg.query.lookup.kinds import Kinds
 from usd2kg.query.lookup.modifiers import PhraseModifiers, restricts
 from usd2kg.query.lookup.names import NameMatcher
@@ -33,6 +34,8 @@ _NEGATIONS = word_set("query", "negations")
 _QUESTION_WORDS = word_set("query", "question_words")
 _FRAMES = word_set("query", "framing_nouns")
 _CONNECTIVES = word_set("query", "connectives")
+_OPERATORS = word_set("query", "operators")
+_RELATIONAL = word_set("query", "relational_nouns")
 _WHOLE_PLACES = word_set("query", "whole_places")
 _PLACE_KINDS = word_set("query", "place_kinds")
 _NUMBERS = word_set("query", "number_words")
@@ -63,6 +66,8 @@ class Nouns:
         self._kinds = Kinds(facts)
         self._spelling = Spelling(facts, self._kinds)
         self._names = NameMatcher(facts, self._kinds)
+        self.notes: list[str] = []
+        """How unusual words of the noun phrases so far were read."""
 
     @property
     def _modifiers(self) -> PhraseModifiers:
@@ -70,7 +75,7 @@ class Nouns:
         return PhraseModifiers(self._facts, self._find)
 
     def find(self, text: str, *, may_shorten: bool = True) -> Things:
-        """Return the objects that a noun phrase means.
+        """Return the objects that a noun phrase means, and note how unusual words in it were read.
 
         Criteria in order: prim path; label; class or concept, with everything below it; all words in the label; a place
         in the prim path and the rest; relations (`cups on the table`); colours, materials and sizes before a noun; the
@@ -83,6 +88,12 @@ class Nouns:
         Raises:
             UnknownWordError: a word is not understood; the message has the nearest ones.
         """
+        found = self._resolve(text, may_shorten)
+        if found.note:
+            self.notes.append(found.note)
+        return found
+
+    def _resolve(self, text: str, may_shorten: bool) -> Things:
         exact = text.strip()
         if named := self._facts.at_path(exact) or self._facts.labelled({exact} - {""}):
             return Things(tuple(self._facts.sorted(named)), exact)
@@ -110,7 +121,8 @@ class Nouns:
             if found is not None:
                 return found
             raise UnknownWordError(f"{min(denied)!r} is not understood in a name")
-        return self._translated(words, found) or self._shortened(words, may_shorten) or found or self._correct(words)
+        read = self._translated(words, found) or self._shortened(words, may_shorten)
+        return read or (self._absent(found, may_shorten) if found is not None else self._correct(words))
 
     def _translated(self, words: Sequence[str], found: Things | None) -> Things | None:
         """Return what words of another language mean, also nothing if they mean nothing else."""
@@ -135,6 +147,8 @@ class Nouns:
     def _of_head(self, words: Sequence[str]) -> Things | None:
         """Return the things of the last noun of a compound, or of its last two; None without such things."""
         if not all(is_noun(word) and not (restricts(word) or self._links(word)) for word in words[:-1]):
+            return None
+        if not _OPERATORS.isdisjoint(words):
             return None
         heads = (" ".join(words[start:]) for start in range(1, len(words)))
         return next((found for head in heads if (found := self._find(head)) is not None and found.iris), None)
@@ -205,9 +219,34 @@ class Nouns:
         for read in readers:
             if (restricted := read(text)) is not None:
                 return restricted
-        is_name = bool(concepts_named(text)) or _CONNECTIVES.isdisjoint(text.split())
         # The noun is known, and no object is one.
-        return Things((), text) if is_name and (is_noun(text) or self._kinds.find(text)) else None
+        return Things((), text) if self._names_a_kind(text) else None
+
+    def _names_a_kind(self, text: str) -> bool:
+        """Return whether a text names a kind of physical things, of which the scene may have none."""
+        *before, head = text.split()
+        if self._kinds.find(text) or (concepts_named(text) and (before or head not in _RELATIONAL)):
+            return True
+        # The words before the head of a compound are nouns in the singular: book stack, but not doors part.
+        is_compound = bool(before) and is_noun(text) and not any(map(is_plural, before))
+        return is_compound and (_OPERATORS | _RELATIONAL | _CONNECTIVES).isdisjoint(text.split())
+
+    def _absent(self, found: Things, may_shorten: bool) -> Things:
+        """Return what a kind without things is read as, or that kind.
+
+        Raises:
+            GraphError: things of a more general kind may be of this kind.
+        """
+        noun = found.text
+        general = find_more_general(self._facts, noun) if concepts_named(noun) and noun not in _ROOM_NOUNS else None
+        if general is None:
+            return found
+        if may_shorten:
+            return replace(general, note=f"“{noun}” was read as “{general.text}”, which is more general")
+        raise GraphError(
+            f"not known: no {noun} is known, but there {'is' if len(general.iris) == 1 else 'are'} "
+            f"{len(general.iris)} known only as {general.text}, which may be one"
+        )
 
     def kinds(self, text: str) -> list[ox.NamedNode]:
         """Return the classes and concepts that a noun names.
@@ -234,7 +273,12 @@ class Nouns:
 
     def shells(self) -> set[str]:
         """Return what surrounds a room, which nobody asks for as a neighbour of a thing."""
-        return {iri for noun in _SHELLS for iri in self.find(noun, may_shorten=False).iris}
+        return {iri for noun in _SHELLS for iri in self.known(noun)}
+
+    def known(self, noun: str) -> tuple[str, ...]:
+        """Return the things that are known to be of a kind, by prim path."""
+        found = self._find(noun)
+        return () if found is None else found.iris
 
     def is_everything(self, text: str) -> bool:
         """Return whether a noun means any thing."""
@@ -265,7 +309,10 @@ class Nouns:
         words = noun.split()
         if not self._is_english and (english := translate(tuple(words), None)):
             found = self._find(" ".join(english)) or found
-        return found if concepts_named(noun) else self._of_head(words) or found
+        if concepts_named(noun) or (head := self._of_head(words)) is None:
+            return found
+        self.notes.append(f"“{noun}” was read as “{head.text}”")
+        return head
 
     def _part_of(self, text: str) -> Things | None:
         """Return the things that are parts of others, or of a group: `drawers of cabinet 10`."""

@@ -1,0 +1,53 @@
+"""Coverage: every word of a question counts. What a reading leaves out is refused, or the answer says it."""
+
+import re
+from collections.abc import Sequence
+
+from usd2kg.assistant.interpreted_answer import InterpretedAnswer
+from usd2kg.assistant.phrases import Phrase
+from usd2kg.assistant.sentences import join_words
+from usd2kg.knowledge import word_set
+from usd2kg.query.lookup import UnknownWordError
+
+__all__ = ["check_left", "with_notes"]
+
+_CONDITIONS = word_set("query", "negations") | word_set("assistant", "conditions")
+_EMBEDDED = re.compile(r"\b(know|see|check|sure|wonder|tell|ask) (me )?(if|whether)\b", re.IGNORECASE)
+"""Begins a question within a clause, which is no condition."""
+_EMPTY_WORDS = word_set("assistant", "fillers") | word_set("query", "determiners")
+_OTHER_TIMES = word_set("assistant", "other_times")
+_ABOUT_TIME = frozenset(["changed"])
+"""Question types that compare the scene with an older version."""
+
+
+def _words(text: str) -> list[str]:
+    return re.findall(r"[^\W_]+(?:'\w+)?", text.lower())
+
+
+def check_left(phrase: Phrase) -> None:
+    """Check that no part of a question that a reading leaves out changes what is asked.
+
+    Raises:
+        UnknownWordError: a part has a negation, a condition or an exception.
+    """
+    for part in phrase.left:
+        words = _words(_EMBEDDED.sub("", part))
+        if found := next((word for word in words if word in _CONDITIONS), None):
+            raise UnknownWordError(f"{found!r} in {part!r} is not understood")
+
+
+def with_notes(found: InterpretedAnswer, phrase: Phrase, text: str, read_as: Sequence[str]) -> InterpretedAnswer:
+    """Return an answer that says which parts of its question were left out, and how unusual words were read.
+
+    Args:
+        found: the answer.
+        phrase: the interpretation of the question.
+        text: the question.
+        read_as: notes on nouns, which the sentence may have already.
+    """
+    left = [part for part in phrase.left if not _EMPTY_WORDS.issuperset(_words(part))]
+    said = [f"{note[:1].upper()}{note[1:]}." for note in dict.fromkeys(read_as) if note not in found.sentence]
+    said += [f"Not taken into account: {join_words([f'“{part}”' for part in left])}."] if left else []
+    if phrase.question not in _ABOUT_TIME and not _OTHER_TIMES.isdisjoint(_words(text)):
+        said.append("The answer is about the scene as it is, not about another time.")
+    return found.with_sentence(" ".join(filter(None, [found.sentence, *said]))) if said else found
