@@ -169,14 +169,14 @@ class ComparisonAnswers:
 
     def _limit(self, adjective: str, amount: str, kind: str = "things") -> InterpretedAnswer:
         """Return the things whose measure is above or below an amount."""
-        things = self._nouns.find(kind)
+        things = self._nouns.existing(kind)
         adjective = {"more": "heavier", "less": "lighter"}.get(adjective.lower(), adjective.lower())
         measure, sign = COMPARED[adjective]
         value, unit = read_amount(amount)
         if measure is SIZE or unit != measure.unit:
             raise GraphError(f"{amount!r} does not measure what is {adjective}; expected a number with {measure.unit}")
         values = self._bodies.values(things.iris, measure)
-        if not values and things.iris:
+        if not values:
             raise self._bodies.unmeasured(things, measure)
         chosen = [iri for iri in self._facts.sorted(values) if sign * values[iri] > sign * value]
         known = (

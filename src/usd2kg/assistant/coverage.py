@@ -4,12 +4,12 @@ import re
 from collections.abc import Sequence
 
 from usd2kg.assistant.interpreted_answer import InterpretedAnswer
-from usd2kg.assistant.phrases import Phrase
+from usd2kg.assistant.phrases import Phrase, crosses_clauses
 from usd2kg.assistant.sentences import join_words
 from usd2kg.knowledge import word_set
 from usd2kg.query.lookup import UnknownWordError
 
-__all__ = ["check_left", "with_notes"]
+__all__ = ["check_left", "leaves_out", "with_notes"]
 
 _CONDITIONS = word_set("query", "negations") | word_set("assistant", "conditions")
 _EMBEDDED = re.compile(r"\b(know|see|check|sure|wonder|tell|ask) (me )?(if|whether)\b", re.IGNORECASE)
@@ -36,6 +36,15 @@ def check_left(phrase: Phrase) -> None:
             raise UnknownWordError(f"{found!r} in {part!r} is not understood")
 
 
+def leaves_out(phrase: Phrase) -> bool:
+    """Return whether a reading leaves out a part of its question that says something, or takes two clauses for one."""
+    return bool(_parts_with_content(phrase)) or crosses_clauses(phrase)
+
+
+def _parts_with_content(phrase: Phrase) -> list[str]:
+    return [part for part in phrase.left if not _EMPTY_WORDS.issuperset(_words(part))]
+
+
 def with_notes(found: InterpretedAnswer, phrase: Phrase, text: str, read_as: Sequence[str]) -> InterpretedAnswer:
     """Return an answer that says which parts of its question were left out, and how unusual words were read.
 
@@ -45,7 +54,7 @@ def with_notes(found: InterpretedAnswer, phrase: Phrase, text: str, read_as: Seq
         text: the question.
         read_as: notes on nouns, which the sentence may have already.
     """
-    left = [part for part in phrase.left if not _EMPTY_WORDS.issuperset(_words(part))]
+    left = _parts_with_content(phrase)
     said = [f"{note[:1].upper()}{note[1:]}." for note in dict.fromkeys(read_as) if note not in found.sentence]
     said += [f"Not taken into account: {join_words([f'“{part}”' for part in left])}."] if left else []
     if phrase.question not in _ABOUT_TIME and not _OTHER_TIMES.isdisjoint(_words(text)):

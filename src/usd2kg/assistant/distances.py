@@ -1,12 +1,13 @@
 """Answers about distances: between things, from side to side, up from the floor, and which of two is nearer."""
 
 import re
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 
 import numpy as np
 
 from usd2kg.assistant.interpreted_answer import InterpretedAnswer
 from usd2kg.assistant.sentences import begin_sentence, join_few, number_text, yes_or_no
+from usd2kg.assistant.thing_lists import ThingLists
 from usd2kg.errors import GraphError
 from usd2kg.query.body_table import Body
 from usd2kg.query.lookup import Nouns, SceneFacts, Things
@@ -29,6 +30,7 @@ class DistanceAnswers:
         self._facts = facts
         self._nouns = nouns
         self._bodies = BodyMeasures(facts)
+        self._things = ThingLists(facts, nouns)
 
     def find(self, question: str) -> Callable[..., InterpretedAnswer] | None:
         """Return the method that answers a question type; None if it is another's."""
@@ -46,6 +48,9 @@ class DistanceAnswers:
 
     def distance(self, thing: str, other: str) -> InterpretedAnswer:
         """Return the gaps between things and the nearest of others."""
+        for end, level in ((thing, other), (other, thing)):
+            if _END.match(end) and self._nouns.is_floor(level):
+                return self._elevation(end)
         # The gap to the nearest shelf is the least gap to any.
         first, second = (self._nouns.existing(_NEAREST.sub("", text)) for text in (thing, other))
         gaps = self._gaps(first, second)
@@ -59,6 +64,27 @@ class DistanceAnswers:
             number=min(gaps.values()),
             sentence=sentence,
         )
+
+    def nearest(self, understood: str, values: Mapping[str, str]) -> InterpretedAnswer:
+        """Return the thing of a kind with the least gap to others; `values` has `thing` and may have `class`."""
+        anchors, facts = self._nouns.existing(values["thing"]), self._facts
+        what = self._nouns.find(values.get("class", "things"))
+        # What holds a thing, and the shell of a room, is not a neighbour of it.
+        holders = {one for iri in anchors.iris for name in ("on", "inside", "room") for one in facts.anchors(name, iri)}
+        holders |= self._nouns.shells()
+        is_any = self._nouns.is_everything(values.get("class", "things"))
+        candidates = what.iris if not is_any else [iri for iri in what.iris if iri not in holders]
+        gaps = self._bodies.gaps(candidates, anchors.iris)
+        if not what.iris:
+            return InterpretedAnswer(understood, facts.table(()), sentence=f"{begin_sentence(what.absence)}.")
+        if not gaps:
+            raise GraphError(f"not known: the graph has no boxes for {what.text} or for {anchors.text}")
+        nearest = min(gaps, key=lambda iri: (gaps[iri], facts.path(iri)))
+        sentence = (
+            f"The nearest {what.text} to {self._things.the(anchors)} is {facts.label(nearest)}, "
+            f"{number_text(gaps[nearest], 'm')} away."
+        )
+        return InterpretedAnswer(understood, facts.table([nearest], gap_m=gaps), sentence=sentence)
 
     def _passes(self, distance: str, thing: str, other: str) -> InterpretedAnswer:
         """Return whether something of a width has room between two things."""
@@ -122,7 +148,7 @@ class DistanceAnswers:
         """Return how high things are above the floor: the end that is named, else the top of what carries something."""
         named = _END.match(thing)
         things, facts = self._nouns.existing(_END.sub("", thing)), self._facts
-        floor = self._floor_level()
+        floor = self._bodies.floor_level
         heights, parts = {}, []
         for iri in things.iris:
             lower, upper = self._ends(facts.body(iri), things)
@@ -157,12 +183,6 @@ class DistanceAnswers:
         if not gaps:
             raise GraphError(f"not known: the graph has no boxes for {first.text} and {second.text}")
         return gaps
-
-    def _floor_level(self) -> float:
-        """Return the height of the floor, or of the lowest thing, in metres."""
-        bodies = [self._facts.body(iri) for iri in self._nouns.known("floor")]
-        tops = [float(body.upper[2]) for body in bodies if body.upper is not None]
-        return min(tops) if tops else float(np.nanmin(self._facts.bodies.table.lower[:, 2]))
 
     def _ends(self, body: Body, things: Things) -> tuple[float, float]:
         """Return the heights of the bottom and the top of a box, in metres."""

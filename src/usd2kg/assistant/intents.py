@@ -65,7 +65,7 @@ def parse_intent(text: str) -> Phrase | None:
     change what is asked.
 
     >>> parse_intent("hey, can you tell me where I'd find the info desk please")
-    Phrase(question='where', given={'thing': 'info desk'}, is_english=True)
+    Phrase(question='where', given={'thing': 'info desk'}, is_english=True, left=())
     """
     whole = normalize(text)
     clauses = (whole, *reversed(split_clauses(whole)))
@@ -79,6 +79,9 @@ def parse_intent(text: str) -> Phrase | None:
 def _parse(text: str, intent: _Intent) -> Phrase | None:
     question, argument, cue, is_english = intent
     if cue.search(text) is None:
+        return None
+    if question == "how-many" and len(cue.findall(text)) > 1:
+        # How many cups and how many plates are two questions.
         return None
     # Words within a cue are a part of the noun phrase: which of the doors opens.
     phrase = _noun_phrase(cue.sub(lambda found: f" {_BREAK} {_inner_words(found)} {_BREAK} ", text))

@@ -14,10 +14,11 @@ from usd2kg.knowledge import word_map, word_set
 from usd2kg.query.body_table import Body
 from usd2kg.query.lookup import Nouns, SceneFacts, UnknownWordError
 from usd2kg.query.lookup.amounts import read_sides
-from usd2kg.query.lookup.body_measures import AREA, MASS, MEASURES, SIZE, BodyMeasures, Measure
+from usd2kg.query.lookup.body_measures import AREA, ELEVATION, HEIGHT, MASS, MEASURES, SIZE, BodyMeasures, Measure
 from usd2kg.query.lookup.colors import COLORS, has_color, has_material, is_material, material_words, own_colors
 from usd2kg.query.lookup.modifiers import restricts
-from usd2kg.query.lookup.word_forms import split_phrase
+from usd2kg.query.lookup.related_things import find_parts
+from usd2kg.query.lookup.word_forms import is_plural, split_phrase
 from usd2kg.query.settings import WORDS
 
 __all__ = ["MeasureAnswers"]
@@ -25,6 +26,7 @@ __all__ = ["MeasureAnswers"]
 Handler = Callable[..., InterpretedAnswer]
 
 
+_OVERHEAD = word_set("assistant", "overhead")
 _WITH_MATERIAL = "?s u2k:material []"
 _COLORED = "{ ?s u2k:color [] } UNION { ?s usd:hasColor/usd:primvars_displayColor [] }"
 
@@ -47,8 +49,6 @@ class MeasureAnswers:
             "are-color": self._are_like,
             "are-kind": self._are_kind,
             "purpose": self._purpose,
-            "is-color": self._is_color,
-            "is-material": self._is_material,
             "put": self._put,
             "openable": self._openable,
             "is-openable": self._is_openable,
@@ -65,10 +65,13 @@ class MeasureAnswers:
         if measure is not MASS and self._nouns.is_whole_scene(" ".join(split_phrase(thing))):
             return self._measure_scene(thing, measure)
         things = self._nouns.existing(thing)
+        facts = self._facts
+        if measure is HEIGHT and all(facts.kind(iri) in _OVERHEAD for iri in things.iris):
+            # The ceiling is as high as the room below it, not as it is thick.
+            measure = ELEVATION
         values = self._bodies.values(things.iris, measure)
         if not values:
             raise self._bodies.unmeasured(things, measure)
-        facts = self._facts
         parts = []
         for iri, value in values.items():
             extents = facts.body(iri).extents
@@ -79,10 +82,15 @@ class MeasureAnswers:
                 parts.append(f"{facts.label(iri)} covers {number_text(value, measure.unit)}")
             elif measure is MASS:
                 parts.append(f"{facts.label(iri)} weighs {number_text(value, 'kg')}")
+            elif measure is ELEVATION:
+                parts.append(f"the underside of {facts.label(iri)} is {number_text(value, 'm')} above the floor")
             else:
                 parts.append(f"{facts.label(iri)} is {number_text(value, 'm')} {measure.name}")
-        column = {f"{'mass_kg' if measure is MASS else f'{measure.name}_m'}": values}
+        name = {MASS: "mass_kg", ELEVATION: "bottom_m"}.get(measure, f"{measure.name}_m")
+        column = {name: values}
         sentence = f"{join_few(parts)}{things.suffix}."
+        if measure is ELEVATION:
+            sentence = begin_sentence(sentence)
         return InterpretedAnswer(
             f"how {measure.name}: {things.text}",
             facts.table(values, **column),
@@ -145,16 +153,6 @@ class MeasureAnswers:
             sentence=f"{join_few(parts)}{things.suffix}. The names of materials say how things look.",
         )
 
-    def _is_material(self, thing: str, adjective: str) -> InterpretedAnswer:
-        if not is_material(adjective.lower()):
-            raise UnknownWordError(f"{adjective!r} is not understood as a material")
-        found, things = self._material(thing), self._nouns.existing(thing)
-        is_so = all(has_material(self._facts, iri, adjective.lower()) for iri in things.iris)
-        sentence = yes_or_no(is_so, found.sentence)
-        return InterpretedAnswer(
-            f"whether {things.text} is made of {adjective}", found.answer, is_so, sentence=sentence
-        )
-
     def _are_like(self, kind: str, adjective: str) -> InterpretedAnswer:
         """Return the things of a colour, a material, or another kind."""
         things, facts, word = self._nouns.existing(kind), self._facts, adjective.lower()
@@ -171,16 +169,12 @@ class MeasureAnswers:
         else:
             kinds = set(self._nouns.find(adjective).iris)
             chosen = [iri for iri in things.iris if iri in kinds]
-        sentence = begin_sentence(f"{name_things(facts, chosen) if chosen else f'no {things.text}'}: {word}.")
+        named = name_things(facts, chosen) if chosen else f"no {things.text}"
+        verb = "are" if len(chosen) > 1 or (not chosen and is_plural(things.text)) else "is"
+        sentence = begin_sentence(f"{named} {verb} {word}.")
         return InterpretedAnswer(
             f"{things.text} that are {word}", facts.table(chosen), number=len(chosen), sentence=sentence
         )
-
-    def _is_color(self, thing: str, adjective: str) -> InterpretedAnswer:
-        found, things = self._color(thing), self._nouns.existing(thing)
-        is_so = all(has_color(self._facts, iri, adjective.lower()) for iri in things.iris)
-        sentence = yes_or_no(is_so, found.sentence)
-        return InterpretedAnswer(f"whether {things.text} is {adjective}", found.answer, is_so, sentence=sentence)
 
     def _are_kind(self, kind: str) -> InterpretedAnswer:
         word = kind.lower().split()[-1]
@@ -196,8 +190,9 @@ class MeasureAnswers:
     def _purpose(self, kind: str) -> InterpretedAnswer:
         """Return the things for a purpose: those of the kinds that the purpose names."""
         things, facts = self._nouns.for_purpose(kind), self._facts
-        named, verb = name_things(facts, things.iris) or "nothing", "is" if len(things.iris) < 2 else "are"
-        sentence = begin_sentence(f"{named} {verb} {things.text.removeprefix('things ')}.")
+        named, use = name_things(facts, things.iris) or "nothing", things.text.removeprefix("things ")
+        verb = "can be used" if use.startswith("to ") else "is" if len(things.iris) < 2 else "are"
+        sentence = begin_sentence(f"{named} {verb} {use}.")
         return InterpretedAnswer(things.text, facts.table(things.iris), sentence=sentence)
 
     def _where_to(self, verb: str) -> InterpretedAnswer:
@@ -226,11 +221,7 @@ class MeasureAnswers:
         facts, (width, depth, _) = self._facts, size
         floors = set(self._nouns.known("floor"))
         surfaces = [iri for iri in facts.things if iri in facts.supporters and iri not in moved and iri not in floors]
-        usual = {
-            iri
-            for noun in sorted(word_set("assistant", "surface_nouns"))
-            for iri in self._nouns.known(noun)
-        }
+        usual = {iri for noun in sorted(word_set("assistant", "surface_nouns")) for iri in self._nouns.known(noun)}
         found = find_free_places(facts, size, surfaces, moved)
         # A seat and a rug are level too, but people put things on tables.
         places = ([place for place in found if place.surface in usual] or found)[: PLACING.max_places]
@@ -249,40 +240,18 @@ class MeasureAnswers:
         table = facts.table(spots, center_m=spots)
         return InterpretedAnswer(f"where to put {text}", table, sentence=sentence, places=paths)
 
-    def between_legs(self, anchor: str) -> list[str]:
-        """Return what is below the top of a thing and over its footprint, and neither on, in nor a part of it.
-
-        The box of a table begins at its feet, so nothing is below that box.
-        """
-        facts, table = self._facts, self._facts.bodies.table
-        body = facts.body(anchor)
-        if body.lower is None or body.upper is None:
-            return []
-        middle = (table.lower[:, :2] + table.upper[:, :2]) / 2
-        is_over = ((middle > body.lower[:2]) & (middle < body.upper[:2])).all(axis=1)
-        is_lower = (table.upper[:, 2] < body.upper[2]) & (table.lower[:, 2] >= body.lower[2] - PLACING.step)
-        own = {
-            anchor,
-            *self._nouns.related("on", [anchor], is_direct=False),
-            *self._nouns.related("inside", [anchor], is_direct=False),
-        }
-        own |= self._nouns.related("part", [anchor], is_direct=True)
-        return [iri for row in np.flatnonzero(is_over & is_lower).tolist() if (iri := table.iris[row]) not in own]
-
     def _openable(self, kind: str = "things") -> InterpretedAnswer:
         """Return the things of a kind that a joint moves; without joints, those that open by what they are."""
         things, facts = self._nouns.find(kind), self._facts
         moved = facts.opened_by_joint & set(facts.things)
-        found = moved or {
-            iri
-            for noun in word_set("assistant", "closed_things")
-            for iri in self._nouns.known(noun)
-        }
+        found = moved or {iri for noun in word_set("assistant", "closed_things") for iri in self._nouns.known(noun)}
         if self._nouns.is_everything(kind):
             chosen = facts.sorted(found)
         else:
             # A cabinet is opened by its door.
-            chosen = [iri for iri in things.iris if iri in found or not found.isdisjoint(self._nouns.parts([iri]))]
+            chosen = [
+                iri for iri in things.iris if iri in found or not found.isdisjoint(find_parts(self._facts, [iri]))
+            ]
         named = name_things(facts, chosen) or f"no {things.text}"
         how = "" if moved else "by what they are, since the stage has no joints: "
         sentence = begin_sentence(f"{how}{named} can be opened or moved{things.suffix}.")

@@ -2,25 +2,28 @@
 
 import math
 import re
-from collections.abc import Callable, Collection, Mapping
+from collections.abc import Callable, Collection, Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
 
 from usd2kg.assistant.comparisons import ComparisonAnswers
-from usd2kg.assistant.coverage import check_left, with_notes
+from usd2kg.assistant.coverage import check_left, leaves_out, with_notes
 from usd2kg.assistant.describe import description_answer
+from usd2kg.assistant.differences import DifferenceAnswers
 from usd2kg.assistant.distances import DistanceAnswers
 from usd2kg.assistant.intents import parse_intent
 from usd2kg.assistant.interpreted_answer import InterpretedAnswer
+from usd2kg.assistant.likeness import LikenessAnswers
 from usd2kg.assistant.measures import MeasureAnswers
+from usd2kg.assistant.paraphrases import paraphrases
 from usd2kg.assistant.phrases import Phrase, match_phrases, normalize, split_clauses
 from usd2kg.assistant.relation_answers import PREPOSITIONS, RelationAnswers
 from usd2kg.assistant.sentences import (
     begin_sentence,
     count_phrase,
+    join_few,
     join_words,
     name_things,
-    number_text,
     plural,
     split_number,
     the_thing,
@@ -38,12 +41,14 @@ from usd2kg.query.lookup import Nouns, Things, UnknownWordError
 from usd2kg.query.lookup.amounts import UNIT_SYMBOLS
 from usd2kg.query.lookup.body_measures import BodyMeasures
 from usd2kg.query.lookup.prepositions import RELATION_OF
-from usd2kg.query.lookup.word_forms import is_noun, is_plural, singular, split_phrase
+from usd2kg.query.lookup.related_things import find_parts, find_related
+from usd2kg.query.lookup.word_forms import is_plural, singular, split_phrase
 from usd2kg.query.questions import list_questions
 from usd2kg.query.unicode_text import check_text
 
 __all__ = ["ask_offline"]
 
+_Reader = Callable[[Phrase], InterpretedAnswer]
 _PRONOUN = re.compile(r"\b(it|them|they)\b|(?<=there )one\b|(?<=find )one\b|(?<=see )one\b", re.IGNORECASE)
 _LINKS = word_set("query", "connectives") | RELATION_OF.keys()
 """Words that lead to the modifier of a noun."""
@@ -83,7 +88,9 @@ class _Answerer:
         self._measures = MeasureAnswers(self._facts, self._nouns)
         self._distances = DistanceAnswers(self._facts, self._nouns)
         self._comparisons = ComparisonAnswers(self._facts, self._nouns)
-        self._relations = RelationAnswers(graph, self._nouns, self._measures)
+        self._differences = DifferenceAnswers(self._facts, self._nouns)
+        self._likeness = LikenessAnswers(self._facts, self._nouns)
+        self._relations = RelationAnswers(graph.facts, self._nouns)
         self._things = ThingLists(self._facts, self._nouns)
 
     @property
@@ -111,10 +118,8 @@ class _Answerer:
 
     def answer(self, text: str) -> InterpretedAnswer:
         """Return the answer to a question, by its pattern, else by its cue, or to a noun alone, such as `laptops?`."""
-        phrases, intent = match_phrases(text), parse_intent(text)
-        readers = [(self._answer_phrase, phrase) for phrase in phrases]
-        readers += [(self._answer_intent, intent)] if intent is not None else []
-        readers += [] if readers else [(self._answer_noun, Phrase("noun", {"thing": normalize(text)}))]
+        phrases = match_phrases(text)
+        readers = self._readers(text, phrases)
         problem = ""
         for read, phrase in readers:
             self._nouns.notes.clear()
@@ -133,6 +138,17 @@ class _Answerer:
             "'where is the kettle?', 'how many cups are there?' or 'what must be moved to open the drawer?' "
             "(usd2kg query --list shows more); or let a language model write the query with --model"
         )
+
+    def _readers(self, text: str, phrases: Sequence[Phrase]) -> list[tuple[_Reader, Phrase]]:
+        """Return the readings of a question, first those that use all of it; of other wordings if its own fail."""
+        own: list[tuple[_Reader, Phrase]] = [(self._answer_phrase, phrase) for phrase in phrases]
+        own += [(self._answer_intent, intent) for intent in [parse_intent(text)] if intent is not None]
+        own += [] if own else [(self._answer_noun, Phrase("noun", {"thing": normalize(text)}))]
+        for other in paraphrases(text):
+            own += [(self._answer_phrase, phrase) for phrase in match_phrases(other)]
+            own += [(self._answer_intent, intent) for intent in [parse_intent(other)] if intent is not None]
+        # A pattern of all words tells more than a cue.
+        return sorted(own, key=lambda reading: (reading[0] != self._answer_phrase, leaves_out(reading[1])))
 
     def _with_antecedent(self, text: str) -> str | None:
         """Return the clause with a pronoun, and in its place a noun of the clauses before; None if there is none."""
@@ -178,6 +194,8 @@ class _Answerer:
             self._measures.find,
             self._distances.find,
             self._comparisons.find,
+            self._differences.find,
+            self._likeness.find,
             self._relations.find,
         )
         handler = next((found for find in finders if (found := find(question)) is not None), None)
@@ -202,9 +220,7 @@ class _Answerer:
         count = len(things.iris)
         verb = "is" if count == 1 else "are"
         *before, last = things.text.split() or ["thing"]
-        named = " ".join([*before, singular(last)]) if count == 1 else things.text
-        if count != 1 and is_noun(things.text):
-            named = plural(things.text)
+        named = " ".join([*before, singular(last)]) if count == 1 else plural(things.text)
         sentence = f"There {verb} {count} {named}{things.suffix}." if count else f"{begin_sentence(things.absence)}."
         return InterpretedAnswer(
             f"number of {things.text}", self._things.located(things.iris), number=count, sentence=sentence
@@ -275,8 +291,22 @@ class _Answerer:
 
     def _stands_on(self, thing: str) -> InterpretedAnswer:
         facts, things = self._facts, self._nouns.find(thing)
-        anchors = [anchor for iri in things.iris for anchor in facts.anchors("on", iri) or facts.anchors("inside", iri)]
-        sentence = f"{things.text} is on {name_things(facts, anchors)}." if anchors else f"{things.text} is on nothing."
+        rooms = {room for iri in things.iris for room in facts.anchors("room", iri)}
+        held = [
+            (name, anchor)
+            for iri in things.iris
+            for name in ("on", "inside", "attached")
+            for anchor in facts.anchors(name, iri)
+            if anchor not in rooms
+        ]
+        # What is on a thing is not asked about where it is in or attached to another.
+        first = held[0][0] if held else ""
+        anchors = [anchor for name, anchor in held if name == first]
+        if not anchors:
+            raise GraphError(f"not known: the graph does not state what {things.text} is on{things.suffix}")
+        verb = "are" if len(things.iris) > 1 else "is"
+        named = join_few([the_thing(facts.kind(anchor), facts.label(anchor)) for anchor in dict.fromkeys(anchors)])
+        sentence = begin_sentence(f"{things.text} {verb} {PREPOSITIONS[first]} {named}{things.suffix}.")
         return InterpretedAnswer(f"what {things.text} is on", self._things.located(anchors), sentence=sentence)
 
     def _parts_of(self, kind: str, thing: str) -> InterpretedAnswer:
@@ -285,7 +315,7 @@ class _Answerer:
             if self._nouns.is_whole_scene(wholes.text):
                 return self._how_many(kind)
             raise GraphError(wholes.absence)
-        parts = self._nouns.related("part", wholes.iris, is_direct=True)
+        parts = find_related(self._facts, "part", wholes.iris, is_direct=True)
         if not parts:
             raise GraphError(f"not known: the graph states no parts of {wholes.text} as objects of their own")
         if not what.iris:
@@ -309,7 +339,7 @@ class _Answerer:
         number, noun = split_number(other)
         things, parts = self._nouns.find(kind), set(self._nouns.find(noun).iris)
         is_counted = bool(count) or noun != other
-        own = {iri: len(parts & self._nouns.parts([iri])) for iri in things.iris}
+        own = {iri: len(parts & find_parts(self._facts, [iri])) for iri in things.iris}
         chosen = [iri for iri, many in own.items() if (many == number if is_counted else many)]
         if not any(own.values()):
             return self._which(kind, f"with {other}")
@@ -351,7 +381,7 @@ class _Answerer:
         parameters = ", ".join(f"{name} = {value}" for name, value in values.items())
         understood = f"{question}: {text}{f' with {parameters}' if parameters else ''}"
         if question == "nearest":
-            return self._nearest(understood, values)
+            return self._distances.nearest(understood, values)
         if "thing" not in values:
             return InterpretedAnswer(understood, self._graph.answer(question, values))
         paths = [self._facts.path(iri) for iri in self._nouns.existing(values["thing"]).iris]
@@ -371,7 +401,7 @@ class _Answerer:
             reason = "by boxes that move as far as the joints allow"
             sentence = self._obstructed(things, other, join_words([*named]), len(named), reason)
             return replace(found, answer=answer, sentence=sentence)
-        parts = self._nouns.related("part", things.iris, is_direct=True)
+        parts = find_related(self._facts, "part", things.iris, is_direct=True)
         swept = [find_in_the_way(self._facts, iri, parts) for iri in things.iris]
         if any(one is None for one in swept):
             raise GraphError(f"not known: the stage has no joint for {things.text}, so how it opens is unknown")
@@ -397,26 +427,6 @@ class _Answerer:
             rows=tuple(answer.rows[number] for number in kept),
             values=tuple(answer.values[number] for number in kept),
         )
-
-    def _nearest(self, understood: str, values: Mapping[str, str]) -> InterpretedAnswer:
-        anchors, facts = self._nouns.existing(values["thing"]), self._facts
-        what = self._nouns.find(values.get("class", "things"))
-        # What holds a thing, and the shell of a room, is not a neighbour of it.
-        holders = {one for iri in anchors.iris for name in ("on", "inside", "room") for one in facts.anchors(name, iri)}
-        holders |= self._nouns.shells()
-        is_any = self._nouns.is_everything(values.get("class", "things"))
-        candidates = what.iris if not is_any else [iri for iri in what.iris if iri not in holders]
-        gaps = self._bodies.gaps(candidates, anchors.iris)
-        if not what.iris:
-            return InterpretedAnswer(understood, facts.table(()), sentence=f"{begin_sentence(what.absence)}.")
-        if not gaps:
-            raise GraphError(f"not known: the graph has no boxes for {what.text} or for {anchors.text}")
-        nearest = min(gaps, key=lambda iri: (gaps[iri], facts.path(iri)))
-        sentence = (
-            f"The nearest {what.text} to {self._things.the(anchors)} is {facts.label(nearest)}, "
-            f"{number_text(gaps[nearest], 'm')} away."
-        )
-        return InterpretedAnswer(understood, facts.table([nearest], gap_m=gaps), sentence=sentence)
 
     def _is_blocked(self, thing: str) -> InterpretedAnswer:
         found = self._to_open(thing)

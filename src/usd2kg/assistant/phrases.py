@@ -10,7 +10,7 @@ from typing import NamedTuple
 from usd2kg.query.lookup.amounts import NUMBER_WORDS
 from usd2kg.query.lookup.prepositions import preposition_pattern
 
-__all__ = ["HEADINGS", "Phrase", "list_phrases", "match_phrases", "normalize", "split_clauses"]
+__all__ = ["HEADINGS", "Phrase", "crosses_clauses", "list_phrases", "match_phrases", "normalize", "split_clauses"]
 
 
 class Phrase(NamedTuple):
@@ -42,6 +42,7 @@ _POLITE = re.compile(
     r"tell me(?! about)|is it true that|can it be that|(can|could) (someone|somebody|anyone|anybody) (tell me|say)|"
     r"(i|we) (want|need|would like|have) to know|i'd like to know|i wonder|do you know|let me know|"
     r"find out|check|see|hey|hi|hello|robot|ok|okay|oh|so|well|sorry|excuse me|"
+    r"for (my|the|our) (report|records?|notes|list|plan|drawing|inventory)|"
     r"and|bitte|s'il te plaît|por favor|per favore),?\s+(please )?",
     re.IGNORECASE,
 )
@@ -99,7 +100,7 @@ def match_phrases(text: str) -> list[Phrase]:
     """Return the interpretations of a question by the first pattern that matches all of it, and each of its clauses.
 
     >>> match_phrases("Please tell me, what's on the table?")
-    [Phrase(question='rel-what', given={'relation': 'on', 'thing': 'the table'}, is_english=True)]
+    [Phrase(question='rel-what', given={'relation': 'on', 'thing': 'the table'}, is_english=True, left=())]
     """
     whole = normalize(text)
     clauses = split_clauses(whole)
@@ -109,10 +110,12 @@ def match_phrases(text: str) -> list[Phrase]:
         *(_match(clause, (*clauses[:at], *clauses[at + 1 :])) for at, clause in reversed([*enumerate(clauses)])),
     ]
     # A noun over two clauses is the last resort: where is the oven, please?
-    return sorted(
-        (phrase for phrase in found if phrase is not None),
-        key=lambda phrase: any(_CLAUSE_END.search(value) for value in phrase.given.values()),
-    )
+    return sorted((phrase for phrase in found if phrase is not None), key=crosses_clauses)
+
+
+def crosses_clauses(phrase: Phrase) -> bool:
+    """Return whether a parameter of an interpretation is in more than one clause."""
+    return any(_CLAUSE_END.search(value) for value in phrase.given.values())
 
 
 def _match(asked: str, others: Sequence[str] = ()) -> Phrase | None:

@@ -3,19 +3,18 @@
 import re
 from collections.abc import Callable, Sequence
 
-from usd2kg.assistant.directions import find_beside, find_between
 from usd2kg.assistant.interpreted_answer import InterpretedAnswer
-from usd2kg.assistant.measures import MeasureAnswers
-from usd2kg.assistant.sentences import begin_sentence, name_things, number_text, split_number, yes_or_no
-from usd2kg.assistant.settings import DIRECTIONS
+from usd2kg.assistant.sentences import begin_sentence, name_things, number_text, split_number, the_thing, yes_or_no
 from usd2kg.assistant.thing_lists import ThingLists, column_of
 from usd2kg.errors import GraphError
 from usd2kg.knowledge import word_set
-from usd2kg.query import GraphStore
-from usd2kg.query.lookup import Nouns, Things, UnknownWordError
+from usd2kg.query.lookup import Nouns, SceneFacts, Things, UnknownWordError
 from usd2kg.query.lookup.body_measures import BodyMeasures
+from usd2kg.query.lookup.directions import find_beside, find_between
 from usd2kg.query.lookup.prepositions import RELATION_OF
+from usd2kg.query.lookup.related_things import find_above, find_below, find_parts, find_related
 from usd2kg.query.lookup.word_forms import is_plural, split_phrase
+from usd2kg.query.settings import DIRECTIONS
 
 __all__ = ["PREPOSITIONS", "RelationAnswers"]
 
@@ -41,12 +40,10 @@ _BY_BOXES = frozenset(["above", "left", "right", "front", "behind"])
 class RelationAnswers:
     """Answers about relations of one graph."""
 
-    def __init__(self, graph: GraphStore, nouns: Nouns, measures: MeasureAnswers) -> None:
-        self._graph = graph
-        self._facts = graph.facts
+    def __init__(self, facts: SceneFacts, nouns: Nouns) -> None:
+        self._facts = facts
         self._nouns = nouns
-        self._measures = measures
-        self._things = ThingLists(graph.facts, nouns)
+        self._things = ThingLists(facts, nouns)
 
     def find(self, question: str) -> Callable[..., InterpretedAnswer] | None:
         """Return the method that answers a question type; None if it is another's."""
@@ -57,11 +54,23 @@ class RelationAnswers:
             "rel-is": self._rel_is,
             "rel-some": self._rel_some,
             "rel-what": self._rel_what,
+            "rel-both": self._rel_both,
+            "which-holder": self._which_holder,
         }
         return handlers.get(question)
 
     def _rel_what(self, relation: str, thing: str) -> InterpretedAnswer:
         return self._related(relation, thing, None)
+
+    def _rel_both(self, relation: str, thing: str, second: str, other: str) -> InterpretedAnswer:
+        """Return the things that are in two relations."""
+        first, also = self._related(relation, thing, None), self._related(second, other, None)
+        paths = set(column_of(also.answer, "path"))
+        chosen = [iri for path in column_of(first.answer, "path") if path in paths for iri in self._facts.at_path(path)]
+        verb = "is" if len(chosen) < 2 else "are"
+        place = f"{relation} {thing} and {second} {other}"
+        sentence = begin_sentence(f"{name_things(self._facts, chosen) or 'nothing'} {verb} {place}.")
+        return InterpretedAnswer(f"things {place}", self._things.located(chosen), sentence=sentence)
 
     def _rel_some(self, relation: str, thing: str = "", kind: str = "things", other: str = "") -> InterpretedAnswer:
         if other:
@@ -71,9 +80,31 @@ class RelationAnswers:
             # “Which chairs have a cushion on them?”: the anchors.
             anchors, targets = self._nouns.find(kind), set(self._nouns.find(other).iris)
             name = RELATION_OF[relation.lower()]
-            chosen = [iri for iri in anchors.iris if self._nouns.related(name, [iri], is_direct=False) & targets]
+            chosen = [iri for iri in anchors.iris if find_related(self._facts, name, [iri], is_direct=False) & targets]
             return self._things.answer(Things(tuple(chosen), f"{anchors.text} with {other} {PREPOSITIONS[name]} them"))
         return self._related(relation, thing, kind)
+
+    def _which_holder(self, relation: str, kind: str, thing: str) -> InterpretedAnswer:
+        """Return the things of a kind that others are on or in, directly or over what is between: on which shelf."""
+        name, facts = RELATION_OF[relation.lower()], self._facts
+        things, kinds = self._nouns.existing(thing), self._nouns.existing(kind)
+        held = set(things.iris)
+        chosen = [
+            iri
+            for iri in kinds.iris
+            if iri not in held
+            and any(held & find_related(facts, one, [iri], is_direct=False) for one in (name, "on", "inside", "part"))
+        ]
+        if not chosen:
+            raise GraphError(f"not known: no {kinds.text} is known to have {things.text} {PREPOSITIONS[name]} it")
+        verb = "is" if len(things.iris) == 1 else "are"
+        named = " and ".join(the_thing(facts.kind(iri), facts.label(iri)) for iri in chosen)
+        return InterpretedAnswer(
+            f"the {kinds.text} that {things.text} {verb} {PREPOSITIONS[name]}",
+            self._things.located(chosen),
+            sentence=f"{begin_sentence(things.text)} {verb} {PREPOSITIONS[name]} {named}{things.suffix}{kinds.suffix}.",
+            places=tuple(map(facts.path, chosen)),
+        )
 
     def _rel_count(self, kind: str, relation: str, thing: str) -> InterpretedAnswer:
         found = self._related(relation, thing, kind)
@@ -104,7 +135,10 @@ class RelationAnswers:
         found, note = self._by_relation(name, thing, anchors, is_direct=what is None), ""
         if name == "inside" and (what is None or what.text == "thing"):
             # The door of a microwave is a part of it, not what is in it.
-            found -= self._nouns.parts(anchors.iris)
+            found -= find_parts(self._facts, anchors.iris)
+        if name == "attached" and not found:
+            # A sink is built into a countertop as a part of it.
+            found = find_related(facts, "part", anchors.iris, is_direct=True)
         if name in {"below", "near"} and (what is None or what.text == "thing"):
             found -= self._nouns.shells()
         if not found and name in _BY_BOXES:
@@ -141,8 +175,8 @@ class RelationAnswers:
 
     def _fixed_to(self, anchors: Sequence[str], *, with_parts: bool) -> set[str]:
         """Return what is fixed to things or to parts of them, and these parts on request."""
-        parts = self._nouns.parts(anchors)
-        fixed = self._nouns.related("attached", [*anchors, *parts], is_direct=True)
+        parts = find_parts(self._facts, anchors)
+        fixed = find_related(self._facts, "attached", [*anchors, *parts], is_direct=True)
         return fixed | parts if with_parts else fixed
 
     def _anchors(self, relation: str, text: str) -> Things:
@@ -169,7 +203,9 @@ class RelationAnswers:
 
     def _by_relation(self, name: str, text: str, anchors: Things, *, is_direct: bool) -> set[str]:
         if name == "below":
-            return self._below(anchors.iris)
+            return {iri for anchor in anchors.iris for iri in find_below(self._facts, anchor)}
+        if name in _BY_BOXES:
+            return find_related(self._facts, name, anchors.iris, is_direct=is_direct)
         found = self._nouns.around(name, text, is_direct=is_direct)
         if name == "on" and self._is_open_storage(anchors):
             found |= self._nouns.around("inside", text, is_direct=is_direct)
@@ -182,8 +218,7 @@ class RelationAnswers:
             GraphError: the boxes do not say what is beside them.
         """
         if name == "above":
-            answers = [self._graph.answer("above", {"thing": self._facts.path(iri)}) for iri in anchors.iris]
-            return {iri for one in answers for path in column_of(one, "path") for iri in self._facts.at_path(path)}, ""
+            return {iri for anchor in anchors.iris for iri in find_above(self._facts, anchor)}, ""
         found = [find_beside(self._facts, name, iri) for iri in anchors.iris]
         if any(one is None for one in found):
             raise GraphError(f"not known: the graph has no viewpoint, and the boxes around {anchors.text} suggest none")
@@ -211,8 +246,3 @@ class RelationAnswers:
         """Return whether things have boards above each other, so that what is on a board is inside them."""
         nouns = word_set("assistant", "open_storage")
         return bool(things.iris) and all(self._facts.kind(iri).split()[-1] in nouns for iri in things.iris)
-
-    def _below(self, anchors: Sequence[str]) -> set[str]:
-        answers = [self._graph.answer("below", {"thing": self._facts.path(iri)}) for iri in anchors]
-        below = {iri for answer in answers for path in column_of(answer, "path") for iri in self._facts.at_path(path)}
-        return below | {iri for anchor in anchors for iri in self._measures.between_legs(anchor)}

@@ -1,11 +1,13 @@
 """Sentences about things and numbers."""
 
+import re
 from collections import Counter
 from collections.abc import Sequence
 
 from usd2kg.assistant.settings import SENTENCES
 from usd2kg.query.lookup import SceneFacts
 from usd2kg.query.lookup.amounts import NUMBER_NAMES, NUMBER_WORDS
+from usd2kg.query.lookup.prepositions import preposition_pattern
 from usd2kg.query.lookup.word_forms import IRREGULAR_PLURALS
 
 __all__ = [
@@ -21,6 +23,7 @@ __all__ = [
     "yes_or_no",
 ]
 
+_MODIFIED = re.compile(rf"(?P<noun>.+?)(?P<rest> (?:of|with|without|{preposition_pattern()}) .+)")
 _SAME_PLURAL = frozenset(["cutlery", "equipment", "furniture", "scissors", "sheep", "stairs"])
 
 
@@ -83,12 +86,11 @@ def the_thing(kind: str, label: str) -> str:
 def plural(noun: str) -> str:
     """Return the plural of a noun, approximately.
 
-    >>> plural("knife"), plural("bookshelf"), plural("glass"), plural("chest of drawers")
-    ('knives', 'bookshelves', 'glasses', 'chests of drawers')
+    >>> plural("knife"), plural("bookshelf"), plural("glass"), plural("chest of drawers"), plural("cup on table")
+    ('knives', 'bookshelves', 'glasses', 'chests of drawers', 'cups on table')
     """
-    noun, of, rest = noun.partition(" of ")
-    if of:
-        return f"{plural(noun)}{of}{rest}"
+    if modified := _MODIFIED.fullmatch(noun):
+        return f"{plural(modified['noun'])}{modified['rest']}"
     *before, last = noun.split()
     if last in _SAME_PLURAL or (last.endswith("s") and not last.endswith("ss")):
         return noun

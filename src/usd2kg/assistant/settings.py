@@ -5,13 +5,11 @@ from dataclasses import dataclass
 from usd2kg.knowledge import read_settings
 
 __all__ = [
-    "DIRECTIONS",
     "OPENING",
     "PLACING",
     "PROMPT",
     "RESULTS",
     "SENTENCES",
-    "DirectionSettings",
     "OpeningSettings",
     "PlacingSettings",
     "PromptSettings",
@@ -63,16 +61,6 @@ class PlacingSettings:
 
 
 @dataclass(frozen=True)
-class DirectionSettings:
-    """Where a viewer stands, and what is beside a thing; lengths are metres, the angle is degrees."""
-
-    surroundings: float
-    min_offset: float
-    reach: float
-    tolerance: float
-
-
-@dataclass(frozen=True)
 class OpeningSettings:
     """Which space a door or window without a joint sweeps."""
 
@@ -84,6 +72,5 @@ class OpeningSettings:
 RESULTS = read_settings("assistant", "results", ResultSettings)
 SENTENCES = read_settings("assistant", "sentences", SentenceSettings)
 PROMPT = read_settings("assistant", "prompt", PromptSettings)
-DIRECTIONS = read_settings("assistant", "directions", DirectionSettings)
 OPENING = read_settings("assistant", "opening", OpeningSettings)
 PLACING = read_settings("assistant", "placing", PlacingSettings)

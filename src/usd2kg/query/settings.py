@@ -7,11 +7,13 @@ from usd2kg.knowledge import read_settings
 __all__ = [
     "CACHE",
     "COMPLEXITY",
+    "DIRECTIONS",
     "LOOKUP",
     "SWEEP",
     "WORDS",
     "CacheSettings",
     "ComplexitySettings",
+    "DirectionSettings",
     "LookupSettings",
     "SweepSettings",
     "WordSettings",
@@ -52,6 +54,18 @@ class WordSettings:
 
 
 @dataclass(frozen=True)
+class DirectionSettings:
+    """Where a viewer stands, and what is beside a thing; lengths are metres, the angle is degrees."""
+
+    surroundings: float
+    min_offset: float
+    reach: float
+    tolerance: float
+    vertical: float
+    feet: float
+
+
+@dataclass(frozen=True)
 class ComplexitySettings:
     """Limits of queries that the engine can run without a stack overflow."""
 
@@ -73,5 +87,6 @@ class CacheSettings:
 SWEEP = read_settings("query", "sweep", SweepSettings)
 LOOKUP = read_settings("query", "lookup", LookupSettings)
 WORDS = read_settings("query", "words", WordSettings)
+DIRECTIONS = read_settings("query", "directions", DirectionSettings)
 COMPLEXITY = read_settings("query", "complexity", ComplexitySettings)
 CACHE = read_settings("query", "cache", CacheSettings)

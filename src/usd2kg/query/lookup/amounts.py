@@ -13,6 +13,9 @@ NUMBER_WORDS = {word: number for number, word in enumerate(NUMBER_NAMES) if numb
 _AMOUNT = re.compile(
     rf"(?P<number>\d*\.?\d+|half an?|half|an?|{'|'.join(NUMBER_WORDS)}) ?(?P<unit>[a-z\"]*)", re.IGNORECASE
 )
+_AND_A_HALF = re.compile(
+    r"(?P<number>\d+) (?:and a half (?P<unit>[a-z]+)|(?P<before>[a-z]+) and a half)", re.IGNORECASE
+)
 _ARTICLES = {"a": 1.0, "an": 1.0, "half": 0.5, "half a": 0.5, "half an": 0.5}
 
 _UNIT_SIZES = {
@@ -45,6 +48,8 @@ def read_amount(text: str) -> tuple[float, str]:
 
     >>> read_amount("40 cm"), read_amount("500 g"), read_amount("two metres")
     ((0.4, 'm'), (0.5, 'kg'), (2.0, 'm'))
+    >>> read_amount("three and a half metres"), read_amount("a metre and a half")
+    ((3.5, 'm'), (1.5, 'm'))
     """
     found = _AMOUNT.fullmatch(_with_number(text))
     symbol = UNIT_SYMBOLS.get(found["unit"].lower()) if found is not None else None
@@ -58,9 +63,20 @@ def read_amount(text: str) -> tuple[float, str]:
     return (float(number) if count is None else count) * size, unit
 
 
+def _spell_number(text: str) -> str:
+    """Return an amount with its first number in digits."""
+    first, _, rest = text.partition(" ")
+    number = {**NUMBER_WORDS, "a": 1, "an": 1}.get(first.lower())
+    return text if number is None or not rest or "half" not in rest.lower() else f"{number} {rest}"
+
+
 def _with_number(text: str) -> str:
     """Return an amount with its number, which the article of a unit may have been: `a metre`."""
-    word = text.strip().lower()
+    # Three and a half metres; a metre and a half.
+    text = _AND_A_HALF.sub(
+        lambda found: f"{found['number']}.5 {found['unit'] or found['before']}", _spell_number(text.strip())
+    )
+    word = text.lower()
     return f"1 {word}" if word in UNIT_SYMBOLS and len(word) > 2 else text.strip()
 
 

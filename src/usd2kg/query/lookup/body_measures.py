@@ -1,13 +1,14 @@
 """BodyMeasures: measures of the bodies of things, and the words for them."""
 
 from collections.abc import Callable, Iterable, Mapping, Sequence
+from functools import cached_property
 from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from usd2kg.errors import GraphError
-from usd2kg.knowledge import word_map
+from usd2kg.knowledge import word_map, word_set
 from usd2kg.query.body_table import Body
 from usd2kg.query.lookup.facts import SceneFacts
 from usd2kg.query.lookup.things import Things
@@ -16,11 +17,13 @@ __all__ = [
     "AREA",
     "COMPARED",
     "ELEVATION",
+    "HEIGHT",
     "MASS",
     "MEASURES",
     "SAME",
     "SIZE",
     "SUPERLATIVES",
+    "TOP",
     "BodyMeasures",
     "Measure",
 ]
@@ -59,6 +62,10 @@ def _bottom(body: Body) -> float | None:
     return None if body.lower is None else float(body.lower[2])
 
 
+def _top(body: Body) -> float | None:
+    return None if body.upper is None else float(body.upper[2])
+
+
 HEIGHT = Measure("tall", "m", lambda body: _side(body, None))
 WIDTH = Measure("wide", "m", lambda body: _side(body, 1))
 DEPTH = Measure("deep", "m", lambda body: _side(body, 0))
@@ -68,6 +75,9 @@ MASS = Measure("heavy", "kg", lambda body: body.mass)
 AREA = Measure("large in area", "m²", _area)
 SIZE = Measure("large", "m", _mean_side)
 ELEVATION = Measure("high up", "m", _bottom)
+"""Of the bottom above the floor."""
+TOP = Measure("high", "m", _top)
+"""Of the top above the floor: the height of what stands on it."""
 _BY_NAME = {
     "height": HEIGHT,
     "width": WIDTH,
@@ -78,6 +88,7 @@ _BY_NAME = {
     "area": AREA,
     "size": SIZE,
     "elevation": ELEVATION,
+    "top": TOP,
 }
 
 
@@ -90,6 +101,7 @@ def _read_signed(words: Mapping[str, str]) -> dict[str, tuple[Measure, int]]:
 MEASURES = {word: _BY_NAME[name] for word, name in word_map("query", "measure_words").items()}
 SUPERLATIVES = _read_signed(word_map("query", "superlatives"))
 COMPARED = _read_signed(word_map("query", "comparatives"))
+_FLOORS = word_set("query", "floors")
 SAME = 0.005
 """Share of a measure by which two things must differ to be unequal."""
 
@@ -128,7 +140,21 @@ class BodyMeasures:
     def values(self, iris: Iterable[str], measure: Measure) -> dict[str, float]:
         """Return the measure of each thing that has it."""
         found = {iri: measure.of(self._facts.body(iri)) for iri in iris}
-        return {iri: round(value, 4) for iri, value in found.items() if value is not None}
+        start = self.floor_level if measure in {ELEVATION, TOP} else 0.0
+        return {iri: round(value - start, 4) for iri, value in found.items() if value is not None}
+
+    def differ(self, one: float, other: float) -> bool:
+        """Return whether two values of a measure are unequal."""
+        return abs(one - other) > SAME * max(abs(one), abs(other))
+
+    @cached_property
+    def floor_level(self) -> float:
+        """The height of the lowest floor, or of the lowest thing, in metres."""
+        tops = [body.upper[2] for iri in self._floors() if (body := self._facts.body(iri)).upper is not None]
+        return float(min(tops)) if tops else float(np.nanmin(self._facts.bodies.table.lower[:, 2]))
+
+    def _floors(self) -> list[str]:
+        return [iri for iri in self._facts.things if self._facts.kind(iri).rsplit(maxsplit=1)[-1] in _FLOORS]
 
     def unmeasured(self, things: Things, measure: Measure) -> GraphError:
         """Return the error that things lack a measure."""

@@ -29,7 +29,11 @@ def find_more_general(facts: SceneFacts, noun: str) -> Things | None:
     named = {kind: kind for kind in above}
     named |= {_INTERCHANGEABLE[kind]: kind for kind in sorted(above & _INTERCHANGEABLE.keys())}
     shares = {kind: len(hypernyms_of(named[kind]) & above) / len(above) for kind in kinds if kind in named}
+    near = [kind for kind, share in shares.items() if share >= WORDS.min_general_share]
+    # The head of a compound is always more general.
     head = singular(noun.rsplit(maxsplit=1)[-1])
-    near = [kind for kind, share in shares.items() if share >= WORDS.min_general_share or kind == head]
+    for kind in {head, _INTERCHANGEABLE.get(head, head)} & kinds.keys() - {noun}:
+        shares[kind] = 1.0
+        near.append(kind)
     best = max(near, key=lambda kind: (shares[kind], kind), default=None)
     return None if best is None or best == noun else Things(tuple(facts.sorted(kinds[best])), best)

@@ -8,8 +8,12 @@ from usd2kg.knowledge import word_map, word_set
 from usd2kg.query.lookup.amounts import is_amount, read_amount
 from usd2kg.query.lookup.body_measures import COMPARED, SIZE, SUPERLATIVES, BodyMeasures, Measure
 from usd2kg.query.lookup.colors import COLORS, has_color, has_material, is_material
+from usd2kg.query.lookup.directions import find_between
 from usd2kg.query.lookup.facts import SceneFacts
+from usd2kg.query.lookup.prepositions import RELATION_OF
+from usd2kg.query.lookup.related_things import find_related
 from usd2kg.query.lookup.things import Things
+from usd2kg.query.lookup.word_forms import split_phrase
 
 __all__ = ["PhraseModifiers", "restricts"]
 
@@ -23,12 +27,20 @@ _WITHIN = re.compile(
     r"(?P<first>.+?) (?P<which>within|closer than|less than|at most|further than|farther than|more than) "
     r"(?P<amount>[\w.]+ ?\w+?) (?:away )?(?:of|to|from|around) (?P<second>.+)"
 )
+_BETWEEN = re.compile(r"(?P<first>.+?) between (?P<second>.+?) and (?P<third>.+)")
+_SAME_PLACE = re.compile(r"(?P<first>.+?) (?P<relation>on|in|inside) same (?P<second>.+?) as (?P<third>.+)")
 _BEYOND = frozenset({"further than", "farther than", "more than"})
 _FOR_PURPOSE = re.compile(r"(?P<first>.+?) (?:to|for) (?P<verb>\w+)(?: (?:on|in|with|from|into|at))?")
 _WITH_NOTHING = re.compile(
-    r"(?P<first>.+?) (?:with |have |has )?nothing (?:on|in|inside|on top)(?: of)?(?: (?:it|them|top))?"
+    r"(?P<first>.+?) (?:(?:that )?(?:with|have|has) )?nothing (?:on|in|inside|on top)(?: of)?(?: (?:it|them|top))?"
 )
-_WITHOUT = re.compile(r"(?P<first>.+?) (?:without|with no) (?P<second>.+?)(?: (?:on|in|inside) (?:it|them))?")
+_WITHOUT = re.compile(
+    r"(?P<first>.+?) (?:without|with no|that (?:have|has) no) (?:any )?(?P<second>.+?)"
+    r"(?: (?:on|in|inside) (?:it|them|top))?"
+)
+_WITH = re.compile(
+    r"(?P<first>.+?) (?:with|that (?:have|has)) (?P<second>.+?) (?P<relation>on|in|inside|near) (?:it|them|top)"
+)
 _EMPTY = word_set("query", "empty_adjectives")
 
 _Find = Callable[[str], Things | None]
@@ -42,20 +54,30 @@ def restricts(adjective: str) -> bool:
 class PhraseModifiers:
     """Reads the modifiers of noun phrases about one graph."""
 
-    def __init__(self, facts: SceneFacts, find: _Find) -> None:
+    def __init__(self, facts: SceneFacts, find: _Find, find_noun: _Find) -> None:
         """Wrap the facts of a graph.
 
         Args:
             facts: the graph.
             find: returns what a phrase means, None if a word is unknown.
+            find_noun: as `find`; a compound that the lexicon lacks may be read as its head, which is noted.
         """
         self._facts = facts
         self._find = find
+        self._find_noun = find_noun
         self._bodies = BodyMeasures(facts)
 
     def read_first(self, text: str) -> Things | None:
         """Return the things of a noun with a modifier that has a preposition: a distance, or what is not on them."""
-        readers = (self._read_superlative, self._read_without, self._read_within)
+        readers = (
+            self._read_superlative,
+            self._read_with,
+            self._read_without,
+            self._read_within,
+            self._read_nearest,
+            self._read_between,
+            self._read_same,
+        )
         return next((found for read in readers if (found := read(text)) is not None), None)
 
     def _read_superlative(self, text: str) -> Things | None:
@@ -74,14 +96,14 @@ class PhraseModifiers:
         readers = (
             self._read_adjective,
             self._read_comparison,
-            self._read_within,
-            self._read_nearest,
             self._read_purpose,
         )
         return next((found for read in readers if (found := read(text)) is not None), None)
 
     def find_for_purpose(self, verb: str) -> Things | None:
         """Return the things that an activity needs, or whose kind names it: sports equipment; None if unknown."""
+        # Cut bread: the verb says what is needed.
+        verb = verb.split(maxsplit=1)[0]
         for noun in filter(None, word_map("query", "activity_things").get(verb.lower(), "").split("/")):
             needed = self._find(noun)
             if needed is not None and needed.iris:
@@ -89,7 +111,7 @@ class PhraseModifiers:
         word = word_map("query", "purpose_verbs").get(verb.lower(), verb.lower())
         kinds = [word, *(f"{word} {noun}" for noun in sorted(word_set("query", "purpose_nouns")))]
         found = [things for kind in kinds if (things := self._find(kind)) is not None and not things.is_by_name]
-        if not found:
+        if not any(things.iris for things in found):
             return None
         return Things(tuple(self._facts.sorted({iri for things in found for iri in things.iris})), f"things for {word}")
 
@@ -110,7 +132,8 @@ class PhraseModifiers:
         facts = self._facts
         for iri in iris:
             if adjective in _EMPTY:
-                is_so = not (facts.related("on", iri) or facts.related("inside", iri))
+                held = (find_related(facts, name, [iri], is_direct=True) for name in ("on", "inside"))
+                is_so = not any(held)
             elif adjective in COLORS:
                 is_so = has_color(facts, iri, adjective)
             else:
@@ -145,13 +168,26 @@ class PhraseModifiers:
         chosen = (iri for iri in first.iris if iri in values and sign * values[iri] > sign * limit)
         return Things(tuple(iri for iri in chosen if iri not in others), text)
 
+    def _read_with(self, text: str) -> Things | None:
+        """Return the things that have others on, in or near them: `table with a cup on it`."""
+        parts = _WITH.fullmatch(text)
+        words = " ".join(split_phrase(parts["second"])) if parts else ""
+        if parts is None or words.split(maxsplit=1)[:1] in (["no"], ["nothing"]):
+            return None
+        first, second = self._find_noun(parts["first"]), self._find(words)
+        if first is None or second is None:
+            return None
+        targets, name = set(second.iris), RELATION_OF[parts["relation"]]
+        found = (iri for iri in first.iris if find_related(self._facts, name, [iri], is_direct=False) & targets)
+        return Things(tuple(found), text)
+
     def _read_without(self, text: str) -> Things | None:
         """Return the things that have nothing, or none of others, on or in them or as a part."""
         if nothing := _WITH_NOTHING.fullmatch(text):
             first = self._find(nothing["first"])
             return None if first is None else Things(tuple(self._having("empty", first.iris)), text)
         parts = _WITHOUT.fullmatch(text)
-        first, second = (self._find(parts[name]) for name in ("first", "second")) if parts else (None, None)
+        first, second = (self._find_noun(parts[name]) for name in ("first", "second")) if parts else (None, None)
         if first is None or second is None:
             return None
         related = ("on", "inside", "attached", "part")
@@ -189,11 +225,38 @@ class PhraseModifiers:
                 continue
             if not second.iris:
                 raise GraphError(second.absence)
-            gaps = self._bodies.gaps(first.iris, second.iris)
+            # Tablets are computers, and one asks for the tablet nearest to the computer.
+            others = [iri for iri in second.iris if iri not in first.iris] or second.iris
+            gaps = self._bodies.gaps(first.iris, others)
             sign = -1 if parts is not None and parts["which"] in {"furthest", "farthest"} else 1
             chosen = min(gaps, key=lambda iri: (sign * gaps[iri], self._facts.path(iri)), default=None)
             return Things((chosen,) if chosen is not None else (), text)
         return None
+
+    def _read_between(self, text: str) -> Things | None:
+        """Return the things of a noun that are between two others: `racks between shelf a and shelf b`."""
+        parts = _BETWEEN.fullmatch(text)
+        found = [self._find(parts[name]) for name in ("first", "second", "third")] if parts is not None else []
+        if not found or any(things is None for things in found):
+            return None
+        first, *ends = [things for things in found if things is not None]
+        pairs = [(one, other) for one in ends[0].iris for other in ends[1].iris if one != other]
+        if len(pairs) != 1:
+            raise GraphError(f"{text!r} has {len(pairs)} pairs of ends; expected the name of one thing each")
+        between = find_between(self._facts, *pairs[0]) or ()
+        return Things(tuple(iri for iri in first.iris if iri in between), text)
+
+    def _read_same(self, text: str) -> Things | None:
+        """Return the things that are on or in the same thing as others: `cube on same desk as camera`."""
+        parts = _SAME_PLACE.fullmatch(text)
+        found = [self._find_noun(parts[name]) for name in ("first", "second", "third")] if parts is not None else []
+        if parts is None or any(things is None for things in found):
+            return None
+        first, places, others = [things for things in found if things is not None]
+        name, held = RELATION_OF[parts["relation"]], set(others.iris)
+        around = [find_related(self._facts, name, [place], is_direct=False) for place in places.iris]
+        chosen = {iri for together in around if together & held for iri in together} - held
+        return Things(tuple(iri for iri in first.iris if iri in chosen), text)
 
     def _read_purpose(self, text: str) -> Things | None:
         """Return the things of a noun that are for a purpose: `something to sit on`."""

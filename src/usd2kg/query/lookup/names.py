@@ -15,6 +15,8 @@ from usd2kg.words import split_identifier
 
 __all__ = ["NameMatcher"]
 
+_LINKS = word_set("query", "connectives") | word_set("query", "operators")
+"""Words between two nouns, or that change which things are meant: the name of another thing may follow them."""
 _AREAS = word_set("query", "area_nouns")
 
 _Criterion = Callable[[], Iterable[str]]
@@ -29,10 +31,13 @@ class NameMatcher:
         self._kinds = kinds
         self._words_of_groups: dict[str, frozenset[str]] = {}
 
-    def in_text(self, words: list[str]) -> Things | None:
-        """Return the objects whose whole name stands after a noun: the book stack BookD_01_003."""
+    def in_text(self, words: list[str], *, is_english: bool) -> Things | None:
+        """Return the objects whose whole name stands after a noun, of any language: the book stack BookD_01_003."""
         *nouns, name = words or [""]
-        if not nouns or not any(letter.isdigit() for letter in name) or not all(map(is_noun, nouns)):
+        is_named = any(letter.isdigit() for letter in name) and bool(nouns)
+        if not is_named or not _LINKS.isdisjoint(nouns):
+            return None
+        if not (all(map(is_noun, nouns)) if is_english else len(nouns) == 1):
             return None
         found = self._facts.labelled([name])
         return Things(tuple(self._facts.sorted(found)), name) if found else None

@@ -1,7 +1,7 @@
 """Nouns: from words in a question to objects of the graph."""
 
 import re
-from collections.abc import Iterable, Sequence
+from collections.abc import Sequence
 from dataclasses import replace
 
 import pyoxigraph as ox
@@ -12,12 +12,14 @@ from usd2kg.knowledge import word_set
 from usd2kg.languages import translate
 from usd2kg.query.lookup.body_measures import COMPARED, SUPERLATIVES
 from usd2kg.query.lookup.corrections import Spelling
+from usd2kg.query.lookup.directions import find_beside
 from usd2kg.query.lookup.facts import SceneFacts
 from usd2kg.query.lookup.general_kinds import find_more_general
 from usd2kg.query.lookup.kinds import Kinds
 from usd2kg.query.lookup.modifiers import PhraseModifiers, restricts
 from usd2kg.query.lookup.names import NameMatcher
 from usd2kg.query.lookup.prepositions import RELATION_OF, preposition_pattern
+from usd2kg.query.lookup.related_things import find_below, find_parts, find_related
 from usd2kg.query.lookup.things import Things, UnknownWordError
 from usd2kg.query.lookup.word_forms import (
     is_noun,
@@ -39,11 +41,14 @@ _RELATIONAL = word_set("query", "relational_nouns")
 _WHOLE_PLACES = word_set("query", "whole_places")
 _PLACE_KINDS = word_set("query", "place_kinds")
 _NUMBERS = word_set("query", "number_words")
+_FLOORS = word_set("query", "floors")
 _SHELLS = word_set("query", "shells")
 _ROOM_NOUNS = word_set("query", "room_nouns")
 _LANGUAGES = ("de", "fr", "es", "it")
-_RELATIONS = ("on", "inside", "near", "above", "attached")
+_SIDES = ("left", "right", "front", "behind")
+_RELATIONS = ("on", "inside", "near", "above", "below", "attached", *_SIDES)
 """Relations in noun phrases: cups on the table."""
+_AS_PART = re.compile(r"(?<=\w) (a )?(parts?|components?|pieces?)$")
 _ORIGIN = {"from": "inside"}
 """Prepositions of noun phrases only: the milk from the fridge is inside it, but what hangs from it is not."""
 _PREPOSITIONS = "|".join([preposition_pattern(_RELATIONS), *_ORIGIN])
@@ -72,7 +77,7 @@ class Nouns:
     @property
     def _modifiers(self) -> PhraseModifiers:
         # An attribute would be a reference cycle, which keeps the graph until the next full garbage collection.
-        return PhraseModifiers(self._facts, self._find)
+        return PhraseModifiers(self._facts, self._find, self._noun_within)
 
     def find(self, text: str, *, may_shorten: bool = True) -> Things:
         """Return the objects that a noun phrase means, and note how unusual words in it were read.
@@ -98,7 +103,7 @@ class Nouns:
         if named := self._facts.at_path(exact) or self._facts.labelled({exact} - {""}):
             return Things(tuple(self._facts.sorted(named)), exact)
         words = split_phrase(text)
-        if (with_name := self._names.in_text(words)) is not None:
+        if (with_name := self._names.in_text(words, is_english=self._is_english)) is not None:
             return with_name
         while len(words) > 1 and words[0] in _NUMBERS:
             words = words[1:]
@@ -242,7 +247,9 @@ class Nouns:
         if general is None:
             return found
         if may_shorten:
-            return replace(general, note=f"“{noun}” was read as “{general.text}”, which is more general")
+            note = f"“{noun}” was read as “{general.text}”, which is more general"
+            self.notes.append(note)
+            return replace(general, note=note)
         raise GraphError(
             f"not known: no {noun} is known, but there {'is' if len(general.iris) == 1 else 'are'} "
             f"{len(general.iris)} known only as {general.text}, which may be one"
@@ -284,6 +291,10 @@ class Nouns:
         """Return whether a noun means any thing."""
         return " ".join(split_phrase(text)) in _EVERYTHING
 
+    def is_floor(self, text: str) -> bool:
+        """Return whether a noun means what heights are measured from."""
+        return " ".join(split_phrase(text)) in _FLOORS
+
     def lacks_room(self, text: str) -> bool:
         """Return whether a noun means a room that the graph does not have."""
         noun = " ".join(split_phrase(text))
@@ -309,7 +320,9 @@ class Nouns:
         words = noun.split()
         if not self._is_english and (english := translate(tuple(words), None)):
             found = self._find(" ".join(english)) or found
-        if concepts_named(noun) or (head := self._of_head(words)) is None:
+        if concepts_named(noun):
+            return self._absent(found, may_shorten=True) if found is not None and not found.iris else found
+        if (head := self._of_head(words)) is None:
             return found
         self.notes.append(f"“{noun}” was read as “{head.text}”")
         return head
@@ -317,25 +330,20 @@ class Nouns:
     def _part_of(self, text: str) -> Things | None:
         """Return the things that are parts of others, or of a group: `drawers of cabinet 10`."""
         noun, _, whole = text.partition(" of ")
+        noun = _AS_PART.sub("", noun)
         first = self._noun_within(noun) if whole else None
         if first is None:
             return None
         wholes = self._find(" ".join(split_phrase(whole)))
-        parts = self.parts(wholes.iris) if wholes is not None else set()
+        parts = find_parts(self._facts, wholes.iris) if wholes is not None else set()
         if chosen := tuple(iri for iri in first.iris if iri in parts):
             return Things(chosen, text)
+        # The switch of the light is the light switch.
+        if whole and (compound := self._names.named(f"{whole} {noun}")):
+            return Things(tuple(compound), text)
         below = self._names.in_area(whole)
         chosen = tuple(iri for iri in first.iris if iri in below)
         return Things(chosen, text) if chosen or wholes is not None else None
-
-    def parts(self, wholes: Iterable[str]) -> set[str]:
-        """Return the parts of things, and the parts of these."""
-        found: set[str] = set()
-        waiting = {*wholes}
-        while waiting:
-            waiting = self.related("part", waiting, is_direct=True) - found
-            found |= waiting
-        return found
 
     def around(self, relation: str, text: str, *, is_direct: bool) -> set[str]:
         """Return the objects in a relation to the things that a noun phrase means, or in a part of the scene.
@@ -351,33 +359,28 @@ class Nouns:
             if relation != "inside" or not (area := self._names.in_area(text)):
                 raise
             return area
-        found = self.related(relation, anchors.iris, is_direct=is_direct)
+        found = self._in_relation(relation, anchors.iris, is_direct=is_direct)
         if relation == "inside" and not found and (area := self._names.in_area(text)):
             return area
         if not anchors.iris:
             raise GraphError(anchors.absence)
         return found
 
+    def _in_relation(self, relation: str, anchors: Sequence[str], *, is_direct: bool) -> set[str]:
+        """Return the objects in a relation to any of some anchors, by boxes where the graph does not state it."""
+        if relation == "below":
+            return {iri for anchor in anchors for iri in find_below(self._facts, anchor)}
+        found = find_related(self._facts, relation, anchors, is_direct=is_direct)
+        if relation not in _SIDES or found:
+            return found
+        self.notes.append("What is beside a thing is by boxes, as seen from among the surrounding objects")
+        return {iri for anchor in anchors for iri in find_beside(self._facts, relation, anchor) or ()}
+
     def is_whole_scene(self, text: str) -> bool:
         """Return whether a noun means the scene: the shop, or the room where the graph has none."""
         is_place = text in _WHOLE_PLACES or not _PLACE_KINDS.isdisjoint(hypernyms_of(text))
         is_scene = is_place or (text.isalpha() and text in noun_words(self._names.root))
         return is_scene and not self._kinds.objects(text) and not (text == "room" and self._facts.has_rooms)
-
-    def related(self, relation: str, anchors: Iterable[str], *, is_direct: bool) -> set[str]:
-        """Return the objects in a relation to any of some anchors; if not direct, also those on or in these objects."""
-        facts = self._facts
-        first = {iri for anchor in anchors for iri in facts.related(relation, anchor)}
-        if is_direct or relation not in {"on", "inside"}:
-            return first
-        found: set[str] = set()
-        waiting = [*first]
-        while waiting:
-            iri = waiting.pop()
-            if iri not in found:
-                found.add(iri)
-                waiting.extend(one for name in ("on", "inside") for one in facts.related(name, iri))
-        return found
 
     def _joined(self, text: str) -> Things | None:
         """Return the things of several nouns: `cups and plates`; none, with the first noun that nothing is."""

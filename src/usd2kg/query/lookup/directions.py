@@ -3,8 +3,8 @@
 import numpy as np
 from numpy.typing import NDArray
 
-from usd2kg.assistant.settings import DIRECTIONS
-from usd2kg.query.lookup import SceneFacts
+from usd2kg.query.lookup.facts import SceneFacts
+from usd2kg.query.settings import DIRECTIONS
 from usd2kg.shapes.side_angles import angles_off_side, turns_from_gaze
 
 __all__ = ["find_beside", "find_between"]
