@@ -1,13 +1,17 @@
-"""usd2kg completions: export and import of cached completions."""
+"""usd2kg completions: export and import of cached completions, and the batch jobs that bring more."""
 
+from datetime import datetime
 from pathlib import Path
 from typing import Annotated
 
 import typer
 from typer import Argument
 
+from usd2kg.cli.options.common import JsonOutput
 from usd2kg.cli.options.model import CompletionCacheFile
-from usd2kg.cli.output import notify
+from usd2kg.cli.output import count_noun, emit, notify, print_json
+from usd2kg.cli.text_table import format_table
+from usd2kg.errors import GroundingError
 
 __all__ = ["app"]
 
@@ -38,3 +42,47 @@ def import_completions(
 
     with CompletionCache(completions or default_cache_path()) as cache:
         notify(f"{cache.import_recording(recording)} new completions from {recording}")
+
+
+@app.command("jobs")
+def list_jobs(completions: CompletionCacheFile = None, json: JsonOutput = False) -> None:
+    """List the batch jobs whose answers are not fetched yet. The command that submitted a job fetches them."""
+    from usd2kg.grounding.llm.batch_jobs.journal import JobJournal  # noqa: PLC0415
+    from usd2kg.grounding.llm.cache import CompletionCache, default_cache_path  # noqa: PLC0415
+
+    with CompletionCache(completions or default_cache_path()) as cache:
+        jobs = JobJournal(cache).open_jobs()
+    times = [datetime.fromtimestamp(job.recorded_s).astimezone().isoformat(timespec="seconds") for job in jobs]
+    if json:
+        print_json(
+            [
+                {"id": job.id, "model": job.model, "prompts": len(job.keys), "submitted": when}
+                for job, when in zip(jobs, times, strict=True)
+            ]
+        )
+        return
+    rows = [
+        (job.id or "not known yet", job.model, str(len(job.keys)), when) for job, when in zip(jobs, times, strict=True)
+    ]
+    emit(format_table(("job", "model", "prompts", "submitted"), rows))
+
+
+@app.command("forget")
+def forget_job(
+    job: Annotated[str, Argument(metavar="JOB", help="Id of a batch job, as listed by `completions jobs`.")],
+    completions: CompletionCacheFile = None,
+) -> None:
+    """Give up the answers of a batch job, such as one whose answers the service has deleted.
+
+    The next run submits its prompts again, which is paid again. The job itself goes on at the service.
+    """
+    from usd2kg.grounding.llm.batch_jobs.journal import JobJournal  # noqa: PLC0415
+    from usd2kg.grounding.llm.cache import CompletionCache, default_cache_path  # noqa: PLC0415
+
+    with CompletionCache(completions or default_cache_path()) as cache:
+        journal = JobJournal(cache)
+        found = next((one for one in journal.open_jobs() if one.id == job), None)
+        if found is None:
+            raise GroundingError(f"batch job {job!r} is not open; expected one of usd2kg completions jobs")
+        journal.close(found, {})
+    notify(f"batch job {job} is forgotten, with {count_noun(len(found.keys), 'prompt')}")

@@ -164,6 +164,7 @@ def _open_model(
     source: Path,
     reading: "ReadOptions",
 ) -> "Iterator[LLMGrounder]":
+    from usd2kg.grounding.llm.batch_jobs.desk import Reporting  # noqa: PLC0415
     from usd2kg.grounding.llm.factory import open_llm_grounder  # noqa: PLC0415
     from usd2kg.grounding.llm.few_shot_choice import choose_examples  # noqa: PLC0415
 
@@ -178,6 +179,7 @@ def _open_model(
             examples=choose_examples(scene, decisions, asked.examples) if asked.examples else (),
             picture=_renderer(source, reading) if asked.thumbnails else None,
             progress=progress.update,
+            reporting=Reporting(progress.say, progress.show),
         ) as model,
     ):
         progress.follow(model.report)

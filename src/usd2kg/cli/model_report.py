@@ -26,7 +26,7 @@ def print_prompts(batches: "list[Batch]", object_count: int, tariff: "Tariff | N
     from usd2kg.grounding.llm.prices import format_price  # noqa: PLC0415
 
     print_requests([batch.request for batch in batches], output)
-    usages = [estimate_usage(batch) for batch in batches]
+    usages = [estimate_usage(batch.request) for batch in batches]
     tokens = sum(usage.input_tokens for usage in usages)
     per_object = tokens / max(1, object_count)
     price = "price unknown" if tariff is None else f"about {format_price(sum(map(tariff, usages), Decimal(0)))}"

@@ -160,10 +160,14 @@ def _ask_model(model: str, requests: RequestOptions, tbox: "TBox") -> "list[Alig
     from usd2kg.cli.model_report import report_prompts  # noqa: PLC0415
     from usd2kg.grounding.lexical.alignment.member_rows import rows_of_members  # noqa: PLC0415
     from usd2kg.grounding.lexical.concepts.taxonomy import load_taxonomy  # noqa: PLC0415
+    from usd2kg.grounding.llm.batch_jobs.desk import Reporting  # noqa: PLC0415
     from usd2kg.grounding.llm.class_members import ask_members, plan_questions  # noqa: PLC0415
     from usd2kg.grounding.llm.factory import open_metered_client  # noqa: PLC0415
 
-    with open_metered_client(requests.settings(model)) as client, Progress() as progress:
+    with (
+        Progress() as progress,
+        open_metered_client(requests.settings(model), Reporting(progress.say, progress.show)) as client,
+    ):
         progress.follow(client.report)
         questions = plan_questions(tbox)
         members, problems = ask_members(client, questions, workers=requests.concurrency, progress=progress.update)

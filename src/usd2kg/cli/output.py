@@ -125,9 +125,18 @@ class Progress:
 
     def update(self, done: int, count: int) -> None:
         """Show the number of objects that are done, of `count`."""
+        self.show(self.line(done, count))
+
+    def show(self, text: str) -> None:
+        """Show a text."""
         if self._is_shown:
-            sys.stderr.write(_CLEAR_LINE + self.line(done, count))
+            sys.stderr.write(_CLEAR_LINE + text)
             sys.stderr.flush()
+
+    def say(self, text: str) -> None:
+        """Print a line to stderr in place of the progress line."""
+        self.clear()
+        notify(text)
 
     def line(self, done: int, count: int) -> str:
         """Return the line: objects, rate, tokens and price."""

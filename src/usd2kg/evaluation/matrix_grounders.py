@@ -9,6 +9,7 @@ from usd2kg.evaluation.matrix import Cell, Matrix
 from usd2kg.grounding import CascadeGrounder, Grounder, make_grounder
 
 if TYPE_CHECKING:
+    from usd2kg.grounding.llm.batch_jobs.desk import Reporting
     from usd2kg.grounding.llm.factory import LLMSettings
     from usd2kg.grounding.llm.grounder import LLMGrounder
 
@@ -24,7 +25,7 @@ class MatrixGrounders:
     offline: Mapping[str, Grounder]
     models: "Mapping[str, LLMGrounder]"
     price: str
-    """The price of tokens that the user states; empty for list prices."""
+    """The price of tokens that the user states, and whether it is that of batch jobs; empty for list prices."""
 
     def grounder(self, cell: Cell) -> Grounder:
         """Return the grounder of a cell."""
@@ -39,7 +40,10 @@ class MatrixGrounders:
 
 @contextmanager
 def open_grounders(
-    matrix: Matrix, settings: "LLMSettings | None" = None, progress: Callable[[int, int], None] | None = None
+    matrix: Matrix,
+    settings: "LLMSettings | None" = None,
+    progress: Callable[[int, int], None] | None = None,
+    reporting: "Reporting | None" = None,
 ) -> Iterator[MatrixGrounders]:
     """Open the grounders of a matrix.
 
@@ -47,6 +51,7 @@ def open_grounders(
         matrix: the runs.
         settings: of its language models, except for model and strategy; None for the defaults.
         progress: called with the number of objects that a language model is done with and the total of a run.
+        reporting: what the user sees of batch jobs; None for log messages.
 
     Raises:
         GroundingError: an extra, a key or a price is missing, or the cache cannot be opened.
@@ -61,6 +66,8 @@ def open_grounders(
             from usd2kg.grounding.llm.factory import LLMSettings, open_llm_grounders  # noqa: PLC0415 - slow to import
 
             settings = settings or LLMSettings("")
-            models = stack.enter_context(open_llm_grounders(matrix.language_models, settings, progress))
+            models = stack.enter_context(open_llm_grounders(matrix.language_models, settings, progress, reporting))
         price = (settings.price or "") if settings is not None else ""
+        if settings is not None and settings.is_batched:
+            price += " in batch jobs"
         yield MatrixGrounders(offline, models, price)

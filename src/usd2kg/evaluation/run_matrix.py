@@ -3,8 +3,8 @@
 import hashlib
 import json
 import logging
-from collections.abc import Callable, Iterator
-from dataclasses import dataclass
+from collections.abc import Callable, Iterable, Iterator
+from dataclasses import dataclass, field
 from functools import lru_cache
 from importlib.resources import files
 from pathlib import Path
@@ -23,6 +23,7 @@ from usd2kg.ontology import TBox, load_home_tbox, load_tbox
 from usd2kg.scene import Scene, read_scene
 
 if TYPE_CHECKING:
+    from usd2kg.grounding.llm.batch_jobs.desk import Reporting
     from usd2kg.grounding.llm.factory import LLMSettings
 
 __all__ = ["CellResult", "SceneResult", "run_matrix"]
@@ -67,6 +68,7 @@ def run_matrix(
     refresh: bool = False,
     progress: Callable[[CellResult], None] | None = None,
     model_progress: Callable[[int, int], None] | None = None,
+    reporting: "Reporting | None" = None,
 ) -> list[SceneResult]:
     """Return the results of all runs, scene by scene.
 
@@ -82,6 +84,7 @@ def run_matrix(
         refresh: ignore stored answers.
         progress: called after each run.
         model_progress: called with the number of objects that a language model is done with and the total of a run.
+        reporting: what the user sees of batch jobs; None for log messages.
 
     Raises:
         Usd2kgError: a scene, its gold labels or a model cannot be opened.
@@ -93,8 +96,10 @@ def run_matrix(
     if matrix.language_models:
         restore_recording(folder, settings)
     results, skipped = [], False
-    with open_grounders(matrix, settings, model_progress) as grounders:
+    with open_grounders(matrix, settings, model_progress, reporting) as grounders:
         runner = _Runner(grounders, folder, refresh, progress)
+        if settings is not None and settings.is_batched:
+            runner.complete_prompts(cell for cells in by_scene.values() for cell in cells)
         for cells in by_scene.values():
             spec = cells[0].scene
             if spec.missing is not None:
@@ -115,8 +120,7 @@ class _Inputs(NamedTuple):
     scene: Scene
     gold: tuple[GoldLabel, ...]
     tbox: TBox
-    missed: tuple[str, ...]
-    """Labelled prims that the object selection misses."""
+    selection: SelectionScore
 
 
 @dataclass(frozen=True)
@@ -127,24 +131,57 @@ class _Runner:
     folder: Path
     refresh: bool
     progress: Callable[[CellResult], None] | None
+    read: dict[str, _Inputs] = field(default_factory=dict)
+    """The inputs of the scenes that have been read, by name."""
+
+    def complete_prompts(self, cells: Iterable[Cell]) -> None:
+        """Have batch jobs complete the prompts of all runs together, so that there is one wait for all of them.
+
+        A second round completes the repair prompts, which depend on answers.
+        """
+        planned = [cell for cell in cells if self.grounders.model(cell) is not None and cell.scene.missing is None]
+        while True:
+            for cell in planned:
+                self._plan_cell(cell)
+            submitting = [model for model in self.grounders.models.values() if model.submit_deferred()]
+            if not submitting:
+                return
+            for model in submitting:
+                model.collect_deferred()
+
+    def _plan_cell(self, cell: Cell) -> None:
+        """Defer the prompts that a run lacks."""
+        model, inputs = self.grounders.model(cell), self._read(cell.scene)
+        grounder = self.grounders.grounder(cell)
+        if model is None or (not self.refresh and self._store(cell, inputs, grounder).exists()):
+            return
+        with model.planning():
+            evaluate(inputs.scene, inputs.gold, inputs.tbox, grounder, regime=cell.regime, evidence=cell.evidence)
+
+    def _read(self, spec: SceneSpec) -> _Inputs:
+        if spec.name not in self.read:
+            tbox = load_tbox(spec.ontology) if spec.ontology else load_home_tbox()
+            gold = read_gold(spec.gold, tbox)
+            scene = read_scene(spec.path, paths=[label.prim_path for label in gold])
+            self.read[spec.name] = _Inputs(scene, gold, tbox, score_scene_selection(scene, gold))
+        return self.read[spec.name]
+
+    def _store(self, cell: Cell, inputs: _Inputs, grounder: Grounder) -> Path:
+        return self.folder / "runs" / f"{_key(cell, inputs, grounder, self.grounders.price)}.json"
 
     def run_scene(self, spec: SceneSpec, cells: list[Cell]) -> SceneResult:
-        tbox = load_tbox(spec.ontology) if spec.ontology else load_home_tbox()
-        gold = read_gold(spec.gold, tbox)
-        scene = read_scene(spec.path, paths=[label.prim_path for label in gold])
-        selection = score_scene_selection(scene, gold)
-        inputs = _Inputs(scene, gold, tbox, selection.missed)
+        inputs = self._read(spec)
         done = []
         for cell in cells:
             result = self._run_cell(cell, inputs)
             done.append(result)
             if self.progress is not None:
                 self.progress(result)
-        return SceneResult(spec, scene, tbox, gold, selection, tuple(done))
+        return SceneResult(spec, inputs.scene, inputs.tbox, inputs.gold, inputs.selection, tuple(done))
 
     def _run_cell(self, cell: Cell, inputs: _Inputs) -> CellResult:
         grounder, model = self.grounders.grounder(cell), self.grounders.model(cell)
-        store = self.folder / "runs" / f"{_key(cell, inputs, grounder, self.grounders.price)}.json"
+        store = self._store(cell, inputs, grounder)
         if not self.refresh and (stored := _read_stored(cell, inputs, store)) is not None:
             return stored
         if model is not None:
@@ -178,7 +215,7 @@ def _read_stored(cell: Cell, inputs: _Inputs, store: Path) -> CellResult | None:
         # Written by another version, or cut off.
         return None
     grounding = read_grounding(store)
-    evaluation = score_grounding(grounding, inputs.gold, inputs.tbox, seconds, missed=inputs.missed)
+    evaluation = score_grounding(grounding, inputs.gold, inputs.tbox, seconds, missed=inputs.selection.missed)
     return CellResult(cell, evaluation, was_stored=True, cost=cost)
 
 

@@ -22,7 +22,7 @@ def test_estimates_one_row_per_object():
     views = [ObjectView(name="a"), ObjectView(name="b")]
     [batch] = build_requests(views, TBOX, PromptOptions(objects_per_prompt=2))
 
-    usage = estimate_usage(batch)
+    usage = estimate_usage(batch.request)
 
     answer = json.dumps({"1": {"class": "Bowl"}, "2": {"class": "Vase"}})
     assert len(answer) == 48
@@ -34,7 +34,7 @@ def test_includes_requested_reasoning():
     options = PromptOptions(strategy=Strategy.CHAIN_OF_THOUGHT, objects_per_prompt=2)
     [batch] = build_requests([ObjectView(name="a"), ObjectView(name="b")], TBOX, options)
 
-    assert estimate_usage(batch).output_tokens == 12 + 2 * 120
+    assert estimate_usage(batch.request).output_tokens == 12 + 2 * 120
 
 
 @pytest.mark.parametrize(("width", "height", "tokens"), [(750, 1, 1), (1, 751, 2), (512, 512, 350), (0, 0, 0)])

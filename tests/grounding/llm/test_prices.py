@@ -8,7 +8,7 @@ import pytest
 
 from usd2kg.errors import GroundingError
 from usd2kg.grounding.llm.completion import Usage
-from usd2kg.grounding.llm.prices import find_tariff, parse_price
+from usd2kg.grounding.llm.prices import discount_batch, find_tariff, parse_price
 
 
 @pytest.fixture(autouse=True)
@@ -95,3 +95,31 @@ class TestStatedPrices:
     def test_rejects_malformed_prices(self, text: str):
         with pytest.raises(GroundingError, match="expected INPUT/OUTPUT in dollars per million tokens"):
             parse_price(text)
+
+
+class TestBatchPrices:
+    def test_input_and_output_cost_half(self):
+        tariff = find_tariff("anthropic:claude-haiku-4-5", is_batched=True)
+
+        assert tariff is not None
+        assert tariff(Usage(1000, 0, 0)) == Decimal("0.0005")
+        assert tariff(Usage(0, 0, 1000)) == Decimal("0.0025")
+
+    def test_a_listed_price_takes_precedence_over_the_rule(self):
+        """Batch jobs of Gemini 2.5 Flash cost half, but its cached input costs the same."""
+        tariff = find_tariff("google:gemini-2.5-flash", is_batched=True)
+
+        assert tariff is not None
+        assert tariff(Usage(0, 0, 1000)) == Decimal("0.00125")
+        assert tariff(Usage(1000, 1000, 0)) == Decimal("0.00003")
+
+    def test_models_without_a_listed_batch_price_follow_the_rule(self):
+        single, batched = (
+            find_tariff("google:gemini-2.0-flash", is_batched=is_batched) for is_batched in (False, True)
+        )
+
+        assert single is not None and batched is not None
+        assert batched(Usage(1000, 0, 1000)) == single(Usage(1000, 0, 1000)) / 2
+
+    def test_half_of_a_stated_price_is_counted(self):
+        assert discount_batch(parse_price("1/2"))(Usage(1000, 0, 1000)) == Decimal("0.0015")

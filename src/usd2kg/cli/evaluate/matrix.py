@@ -44,6 +44,7 @@ def reproduce_command(
     """
     from usd2kg import evaluation  # noqa: PLC0415 - loads OpenUSD, too slow for --help
     from usd2kg.evaluation.report import write_report  # noqa: PLC0415
+    from usd2kg.grounding.llm.batch_jobs.desk import Reporting  # noqa: PLC0415
 
     plan = _plan(matrix, study)
     if not plan.language_models:
@@ -60,6 +61,7 @@ def reproduce_command(
             refresh=refresh,
             progress=_report(total, progress),
             model_progress=progress.update,
+            reporting=Reporting(progress.say, progress.show),
         )
     if not results:
         raise EvaluationError(f"{matrix}: none of its scenes exists; correct the paths")
@@ -125,8 +127,7 @@ def _report(total: int, progress: Progress) -> "Callable[[CellResult], None]":
         stored = " (stored)" if result.was_stored else ""
         figures = f"EMA {summary.ema:.1f} HF1 {summary.hf1:.2f}"
         failed = f" ({count_noun(len(result.failures), 'object')} failed)" if result.failures else ""
-        progress.clear()
-        notify(
+        progress.say(
             f"[{next(numbers)}/{total}] {cell.scene.name}, {cell.method}, {cell.condition}: {figures}{stored}{failed}"
         )
 

@@ -76,6 +76,14 @@ class RequestLimits(OptionBundle):
     replay: Annotated[
         bool, Option("--replay", help="Use cached completions only; needs no key and sends no request.")
     ] = False
+    batch: Annotated[
+        bool,
+        Option(
+            "--batch",
+            help="Submit the prompts as a batch job, at half the price, and wait up to a day for the answers; the same "
+            "command resumes the wait.",
+        ),
+    ] = False
 
     @property
     def dollars(self) -> Decimal | None:
@@ -95,6 +103,7 @@ class RequestLimits(OptionBundle):
             requests_per_minute=self.requests_per_minute,
             completions=self.completions,
             is_replayed=self.replay,
+            is_batched=self.batch,
         )
 
     def check_without_model(self, how_to_name_one: str = "name one with --model MODEL") -> None:
@@ -107,6 +116,7 @@ class RequestLimits(OptionBundle):
             "--budget": self.budget is not None,
             "--price": self.price is not None,
             "--requests-per-minute": self.requests_per_minute is not None,
+            "--batch": self.batch,
         }
         for option, is_given in given.items():
             if is_given:

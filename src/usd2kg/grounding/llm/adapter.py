@@ -21,6 +21,7 @@ __all__ = [
     "accepts_temperature",
     "convert_response",
     "define_rows_once",
+    "hide_secrets",
     "json_object_format",
     "make_message",
     "make_parameters",
@@ -180,12 +181,23 @@ def convert_response(
     if cutoff is not None and provider != "google":
         # Only Gemini reports output tokens during a stream; Anthropic's count at the start is a placeholder.
         counted = replace(counted, output_tokens=0)
-    tokens = _read_tokens(response.provider_details or {})
+    # OpenAI's chat completions have token probabilities beside the text; its responses, as in batch jobs, in it.
+    details = [response.provider_details, *(p.provider_details for p in response.parts if isinstance(p, TextPart))]
+    tokens = next((read for one in details if (read := _read_tokens(one or {}))), ())
     if not counted.output_tokens:
         counted = replace(counted, output_tokens=len(tokens))
     if cutoff is not None or usage.unmeasured_requests:
         counted += _estimate_missing(counted, request, thinking + text)
     return Completion(text, cutoff or finish, counted, tokens, thinking)
+
+
+def hide_secrets(completion: Completion, hide: Callable[[str], str]) -> Completion:
+    """Return a completion without keys that the server echoed; if it did, without token probabilities, too."""
+    text, thinking = hide(completion.text), hide(completion.thinking)
+    spelled = "".join(piece for piece, _ in completion.tokens)
+    if (text, thinking, hide(spelled)) == (completion.text, completion.thinking, spelled):
+        return completion
+    return replace(completion, text=text, thinking=thinking, tokens=())
 
 
 def _estimate_missing(counted: Usage, request: Request, text: str) -> Usage:

@@ -116,8 +116,8 @@ class CompletionCache:
         become the character they encode.
         """
         row = make_entry(model, request_fields(request), completion)
-        with self._transaction("BEGIN IMMEDIATE"):
-            self._insert(row, replace=replace)
+        with self.transaction():
+            self.insert(row, replace=replace)
 
     def export_recording(self, path: Path, keys: Collection[str] | None = None) -> int:
         """Write completions with their requests as JSON Lines in UTF-8, sorted by key, and return their number.
@@ -149,10 +149,10 @@ class CompletionCache:
         """
         read = gzip.open if path.suffix == _COMPRESSED else open
         try:
-            with read(path, "rb") as file, self._transaction("BEGIN IMMEDIATE"):
+            with read(path, "rb") as file, self.transaction():
                 before = len(self)
                 for number, line in enumerate(file, start=1):
-                    self._insert(read_line(path, number, line))
+                    self.insert(read_line(path, number, line))
                 return len(self) - before
         except (OSError, EOFError, zlib.error) as error:
             reason = getattr(error, "strerror", None) or error
@@ -179,7 +179,7 @@ class CompletionCache:
         self.close()
 
     def _prepare(self) -> None:
-        with self._transaction("BEGIN"):
+        with self.transaction("BEGIN"):
             (tables,) = self._connection.execute("SELECT count(*) FROM sqlite_master").fetchone()
             (application,) = self._connection.execute("PRAGMA application_id").fetchone()
             (version,) = self._connection.execute("PRAGMA user_version").fetchone()
@@ -192,7 +192,7 @@ class CompletionCache:
         # Safe if the process is killed. A power failure may lose the last completions but does not damage the file.
         self._connection.execute("PRAGMA synchronous = NORMAL")
         if is_new:
-            with self._transaction("BEGIN IMMEDIATE"):
+            with self.transaction():
                 for statement in _SCHEMA:
                     self._connection.execute(statement)
         elif version == 1:
@@ -200,7 +200,7 @@ class CompletionCache:
 
     def _upgrade(self) -> None:
         self._connection.create_function("upgraded", 1, _upgrade_text, deterministic=True)
-        with self._transaction("BEGIN IMMEDIATE"):
+        with self.transaction():
             # Another process may have upgraded the file meanwhile; the function leaves upgraded completions unchanged.
             self._connection.execute("UPDATE completions SET completion = upgraded(completion)")
             self._connection.execute(f"PRAGMA user_version = {_FILE_VERSION}")
@@ -217,17 +217,19 @@ class CompletionCache:
                     raise
                 time.sleep(LIMITS.cache_poll_s)
 
-    def _insert(self, row: CacheEntry, *, replace: bool = False) -> None:
+    def insert(self, row: CacheEntry, *, replace: bool = False) -> None:
+        """Add an entry in a transaction; an existing one is kept unless `replace`."""
         conflict = "REPLACE" if replace else "IGNORE"
         self._connection.executemany("INSERT OR IGNORE INTO shared VALUES (?, ?)", row.shared)
         self._connection.execute(f"INSERT OR {conflict} INTO completions VALUES (?, ?, ?, ?, ?)", row.values)
 
     @contextmanager
-    def _transaction(self, begin: str) -> Iterator[None]:
+    def transaction(self, begin: str = "BEGIN IMMEDIATE") -> Iterator[sqlite3.Connection]:
+        """Begin a transaction, which is committed unless the block raises."""
         with self._lock, self._translated():
             try:
                 self._connection.execute(begin)
-                yield
+                yield self._connection
                 self._connection.execute("COMMIT")
             finally:
                 # Still open only after an error.

@@ -4,11 +4,12 @@ import time
 from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, NamedTuple
 
 from usd2kg.errors import GroundingError
 from usd2kg.grounding.lexical.alignment.member_rows import ClassMembers
 from usd2kg.grounding.llm.answer_rows import read_answer_rows
+from usd2kg.grounding.llm.batch_jobs.desk import DeferredError
 from usd2kg.grounding.llm.class_lists import list_classes, name_classes
 from usd2kg.grounding.llm.completion import Request
 from usd2kg.grounding.llm.metered_client import MeteredClient
@@ -21,13 +22,19 @@ from usd2kg.ontology import ClassIRI, TBox
 __all__ = ["MemberQuestion", "ask_members", "plan_questions"]
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, eq=False)
 class MemberQuestion:
     """One prompt."""
 
     request: Request
     classes: tuple[ClassIRI, ...]
     """The classes that it asks about; the first is class "1" in the prompt."""
+
+
+class _Answer(NamedTuple):
+    members: list[ClassMembers]
+    problem: str
+    """Empty if the answer is complete."""
 
 
 def plan_questions(tbox: TBox) -> list[MemberQuestion]:
@@ -70,25 +77,36 @@ def ask_members(
     """
     start = time.monotonic()
     client.report.prompts += len(questions)
-    members: list[ClassMembers] = []
-    problems: list[str] = []
+    found: dict[MemberQuestion, _Answer] = {}
+    left = list(questions)
     with ThreadPoolExecutor(max_workers=workers) as pool:
-        for done, (found, problem) in enumerate(pool.map(lambda one: _ask(client, one), questions), start=1):
-            members += found
-            problems += [problem] if problem else []
-            if progress is not None:
-                progress(done, len(questions))
+        while left:
+            for question, answer in zip(left, pool.map(lambda one: _ask(client, one), left), strict=True):
+                if answer is None:
+                    continue
+                found[question] = answer
+                if progress is not None:
+                    progress(len(found), len(questions))
+            left = [question for question in left if question not in found]
+            if left:
+                client.submit_deferred()
+                client.collect_deferred()
     client.report.seconds += time.monotonic() - start
-    return members, problems
+    answers = [found[question] for question in questions]
+    problems = [answer.problem for answer in answers if answer.problem]
+    return [one for answer in answers for one in answer.members], problems
 
 
-def _ask(client: MeteredClient, question: MemberQuestion) -> tuple[list[ClassMembers], str]:
+def _ask(client: MeteredClient, question: MemberQuestion) -> _Answer | None:
+    """Return the answer to a question; None if it waits for a batch job."""
     try:
         text = client.complete(question.request).text
+    except DeferredError:
+        return None
     except GroundingError as error:
         with client.lock:
             client.report.failed += 1
-        return [], str(error)
+        return _Answer([], str(error))
     numbers = [str(number) for number in range(1, len(question.classes) + 1)]
     rows = read_answer_rows(text, numbers)
     found = [
@@ -97,7 +115,7 @@ def _ask(client: MeteredClient, question: MemberQuestion) -> tuple[list[ClassMem
         if number in rows
     ]
     missing = len(numbers) - len(found)
-    return found, f"the answer has no row for {missing} of {len(numbers)} classes" if missing else ""
+    return _Answer(found, f"the answer has no row for {missing} of {len(numbers)} classes" if missing else "")
 
 
 def _read_nouns(row: Any, key: str) -> tuple[str, ...]:

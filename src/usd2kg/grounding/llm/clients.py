@@ -8,7 +8,7 @@ import os
 import random as random_numbers
 import time
 import weakref
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Coroutine, Mapping
 from dataclasses import replace
 from functools import partial
 from types import TracebackType
@@ -18,6 +18,7 @@ from usd2kg.errors import GroundingError
 from usd2kg.grounding.llm.adapter import (
     accepts_temperature,
     convert_response,
+    hide_secrets,
     json_object_format,
     make_message,
     make_parameters,
@@ -25,6 +26,7 @@ from usd2kg.grounding.llm.adapter import (
     prompted_parameters,
     tool_parameters,
 )
+from usd2kg.grounding.llm.batch_jobs.service import BatchService
 from usd2kg.grounding.llm.capabilities import Capabilities
 from usd2kg.grounding.llm.completion import Completion, Request
 from usd2kg.grounding.llm.event_loop import EventLoopThread
@@ -37,7 +39,14 @@ from usd2kg.grounding.llm.model_reference import (
     find_key,
     parse_model_reference,
 )
-from usd2kg.grounding.llm.providers import Access, close_connections, closing_responses, make_provider_model, open_http
+from usd2kg.grounding.llm.providers import (
+    Access,
+    close_connections,
+    closing_responses,
+    make_batch_model,
+    make_provider_model,
+    open_http,
+)
 from usd2kg.grounding.llm.retry import Failure, Redactor, RetryPolicy, advise, convert_error
 from usd2kg.grounding.llm.streaming import request_stream
 from usd2kg.grounding.llm.traffic import RateLimiter, Traffic
@@ -171,15 +180,28 @@ class HttpClient:
         if isinstance(outcome, Failure):
             # Raised outside any handler, so that the library's exception with its unredacted message is not chained.
             raise GroundingError(self._explain(outcome, attempts))
-        return self._without_secrets(outcome)
+        return hide_secrets(outcome, self._redact.hide)
 
-    def _without_secrets(self, completion: Completion) -> Completion:
-        """Return a completion without keys that the server echoed; if it did, without token probabilities, too."""
-        text, thinking = self._redact.hide(completion.text), self._redact.hide(completion.thinking)
-        spelled = "".join(piece for piece, _ in completion.tokens)
-        if (text, thinking, self._redact.hide(spelled)) == (completion.text, completion.thinking, spelled):
-            return completion
-        return replace(completion, text=text, thinking=thinking, tokens=())
+    def open_batch_service(self) -> BatchService:
+        """Return the batch endpoint of the service, which uses the connections of this client.
+
+        Raises:
+            GroundingError: the service has none.
+        """
+        provider_model = make_batch_model(self._reference, self._provider_model)
+        if provider_model is None:
+            raise GroundingError(
+                f"model '{self.model}': --batch needs a service with a batch endpoint; expected a model of OpenAI, "
+                "Anthropic or Gemini, or leave out --batch"
+            )
+        return BatchService(
+            self._reference, provider_model, self._run, self._redact, self._retries, Capabilities(logprobs=True)
+        )
+
+    def _run(self, work: Coroutine[Any, Any, Any]) -> Any:
+        self._rate_limiter.wait_for_turn()
+        self.traffic.add(attempts=1)
+        return self._event_loop.run(work)
 
     def _send(self, request: Request) -> Completion | Failure:
         """Send a request; repeat it without each feature that the server rejects, which is not requested again."""

@@ -1,31 +1,42 @@
 """Estimates of the tokens of a prompt and its answer, for use before a server has counted them."""
 
 import json
+from collections import Counter
+from collections.abc import Mapping
 from fractions import Fraction
+from typing import Any
 
 from usd2kg.grounding.llm.completion import Request, Usage
 from usd2kg.grounding.llm.prompt_text import estimate_tokens
-from usd2kg.grounding.llm.prompts import Batch
-from usd2kg.grounding.llm.settings import ESTIMATES
+from usd2kg.grounding.llm.settings import ESTIMATES, MEMBERS
 
 __all__ = ["estimate_input", "estimate_usage"]
 
 _PNG_SIGNATURE = b"\x89PNG\r\n\x1a\n"
 
 
-def estimate_usage(batch: Batch) -> Usage:
+def estimate_usage(request: Request) -> Usage:
     """Return an estimate of the tokens of a prompt and its answer.
 
     The answer is assumed to have one row per object, with a class name of mean length and, if the prompt asks for it,
-    a reasoning of fixed length. Thinking, repairs and the server's cache are not included.
+    a reasoning of fixed length, or as many nouns as the prompt asks for. Thinking, repairs and the server's cache are
+    not included.
     """
-    request = batch.request
-    letters = round(Fraction(sum(map(len, batch.classes)), max(1, len(batch.classes))))
-    answer = json.dumps({number: {"class": "x" * letters} for number in batch.numbers})
-    rows = request.schema["properties"].values()
-    reasoning = sum(ESTIMATES.reasoning_tokens for row in rows if "reasoning" in row["properties"])
-    input_tokens, output_tokens = estimate_input(request), estimate_tokens(answer) + reasoning
+    rows = {number: row["properties"] for number, row in request.schema["properties"].items()}
+    answer = {
+        number: {name: _typical_name(form) for name, form in row.items() if "enum" in form}
+        for number, row in rows.items()
+    }
+    kinds = Counter(form["type"] for row in rows.values() for form in row.values() if "enum" not in form)
+    list_tokens = MEMBERS.nouns_per_class * ESTIMATES.noun_tokens
+    texts = kinds["string"] * ESTIMATES.reasoning_tokens + kinds["array"] * list_tokens
+    input_tokens, output_tokens = estimate_input(request), estimate_tokens(json.dumps(answer)) + texts
     return Usage(input_tokens, 0, output_tokens, input_tokens + output_tokens)
+
+
+def _typical_name(form: Mapping[str, Any]) -> str:
+    """Return a text as long as the mean of the names that are allowed."""
+    return "x" * round(Fraction(sum(map(len, form["enum"])), max(1, len(form["enum"]))))
 
 
 def estimate_input(request: Request) -> int:

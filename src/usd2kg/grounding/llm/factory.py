@@ -8,14 +8,16 @@ from decimal import Decimal
 from pathlib import Path
 
 from usd2kg.errors import GroundingError
+from usd2kg.grounding.llm.batch_jobs.desk import BatchDesk, Reporting
+from usd2kg.grounding.llm.batch_jobs.journal import JobJournal
 from usd2kg.grounding.llm.cache import CompletionCache, default_cache_path
-from usd2kg.grounding.llm.clients import make_client
+from usd2kg.grounding.llm.clients import HttpClient, make_client
 from usd2kg.grounding.llm.completion import Client, Completion, Request
 from usd2kg.grounding.llm.grounder import LLMGrounder
 from usd2kg.grounding.llm.limits import LIMITS
 from usd2kg.grounding.llm.local.client import is_local_model, open_local
 from usd2kg.grounding.llm.metered_client import Budget, MeteredClient, Spending
-from usd2kg.grounding.llm.prices import find_tariff, parse_price
+from usd2kg.grounding.llm.prices import Tariff, discount_batch, find_tariff, parse_price
 from usd2kg.grounding.llm.prompt_options import PromptOptions, Strategy
 from usd2kg.grounding.llm.prompts import Example
 from usd2kg.grounding.llm.settings import CONCEPTS, SAMPLING
@@ -75,6 +77,8 @@ class LLMSettings:
     """Replace cached completions."""
     is_replayed: bool = False
     """Use only cached completions."""
+    is_batched: bool = False
+    """Submit prompts that are not cached as batch jobs, at the price of these, and wait for the answers."""
 
 
 @contextmanager
@@ -85,6 +89,7 @@ def open_llm_grounder(
     examples: Sequence[Example] = (),
     picture: Callable[[str], bytes | None] | None = None,
     progress: Callable[[int, int], None] | None = None,
+    reporting: Reporting | None = None,
 ) -> Iterator[LLMGrounder]:
     """Open a grounder with its connections and its cache.
 
@@ -94,19 +99,23 @@ def open_llm_grounder(
         examples: objects with known classes, shown in each prompt.
         picture: returns the PNG picture of a prim; None to send no pictures.
         progress: called with the number of objects that are done and the total.
+        reporting: what the user sees of batch jobs; None for log messages.
 
     Raises:
-        GroundingError: the model is unknown, a key is missing, the cache cannot be opened, the price is malformed, or
-            there is a budget in dollars but no known price.
+        GroundingError: the model is unknown, a key is missing, the cache cannot be opened, the price is malformed,
+            there is a budget in dollars but no known price, or the service has no batch jobs.
     """
     with ExitStack() as stack:
-        client = _open_metered_client(settings, stack, is_dry=is_dry)
+        client = _open_metered_client(settings, stack, reporting, is_dry=is_dry)
         yield _make_grounder(settings, client, examples, picture, progress)
 
 
 @contextmanager
 def open_llm_grounders(
-    names: Iterable[str], settings: LLMSettings, progress: Callable[[int, int], None] | None = None
+    names: Iterable[str],
+    settings: LLMSettings,
+    progress: Callable[[int, int], None] | None = None,
+    reporting: Reporting | None = None,
 ) -> Iterator[Mapping[str, LLMGrounder]]:
     """Open grounders by name, like `llm-B:MODEL`, with one client for each model and one budget for all.
 
@@ -114,6 +123,7 @@ def open_llm_grounders(
         names: strategies and models.
         settings: all other settings; its model and strategy have no effect.
         progress: called with the number of objects that are done and the total of one call of a grounder.
+        reporting: what the user sees of batch jobs; None for log messages.
 
     Raises:
         GroundingError: see `open_llm_grounder`, or a name has another form.
@@ -126,7 +136,7 @@ def open_llm_grounders(
             model, strategy = parse_llm_name(name)
             own = replace(settings, model=model, strategy=strategy)
             if model not in clients:
-                clients[model] = _open_metered_client(own, stack, spending)
+                clients[model] = _open_metered_client(own, stack, reporting, spending)
             grounders[name] = _make_grounder(own, clients[model], progress=progress)
         yield grounders
 
@@ -155,14 +165,14 @@ def _make_grounder(
 
 
 @contextmanager
-def open_metered_client(settings: LLMSettings) -> Iterator[MeteredClient]:
+def open_metered_client(settings: LLMSettings, reporting: Reporting | None = None) -> Iterator[MeteredClient]:
     """Open a client for prompts of any kind, with its connections and its cache.
 
     Raises:
         GroundingError: see `open_llm_grounder`.
     """
     with ExitStack() as stack:
-        yield _open_metered_client(settings, stack)
+        yield _open_metered_client(settings, stack, reporting)
 
 
 def _prompt_options(settings: LLMSettings) -> PromptOptions:
@@ -183,14 +193,25 @@ def _prompt_options(settings: LLMSettings) -> PromptOptions:
 
 
 def _open_metered_client(
-    settings: LLMSettings, stack: ExitStack, spending: Spending | None = None, *, is_dry: bool = False
+    settings: LLMSettings,
+    stack: ExitStack,
+    reporting: Reporting | None,
+    spending: Spending | None = None,
+    *,
+    is_dry: bool = False,
 ) -> MeteredClient:
-    tariff = find_tariff(settings.model) if settings.price is None else parse_price(settings.price)
+    if settings.is_batched and settings.is_refreshed:
+        raise GroundingError(
+            "--batch resumes from the cache, which --refresh ignores; expected one of the two: name another cache with "
+            "--completions, or draw new samples with --first-sample"
+        )
+    tariff = _find_tariff(settings)
     budget = Budget(settings.token_budget, settings.budget)
     if is_dry:
         return MeteredClient(_OfflineClient(settings.model), tariff=tariff, budget=budget)
     cache = stack.enter_context(CompletionCache(settings.completions or default_cache_path()))
     client, traffic = _open_client(settings, stack)
+    desk = _open_desk(settings, client, cache, reporting) if settings.is_batched and not settings.is_replayed else None
     return MeteredClient(
         client,
         cache=cache,
@@ -199,7 +220,21 @@ def _open_metered_client(
         spending=spending,
         tariff=tariff,
         traffic=traffic,
+        desk=desk,
     )
+
+
+def _find_tariff(settings: LLMSettings) -> Tariff | None:
+    if settings.price is None:
+        return find_tariff(settings.model, is_batched=settings.is_batched)
+    stated = parse_price(settings.price)
+    return discount_batch(stated) if settings.is_batched else stated
+
+
+def _open_desk(settings: LLMSettings, client: Client, cache: CompletionCache, reporting: Reporting | None) -> BatchDesk:
+    if not isinstance(client, HttpClient):
+        raise GroundingError(f"model '{settings.model}': runs in this process, without batch jobs; leave out --batch")
+    return BatchDesk(settings.model, JobJournal(cache), client.open_batch_service(), reporting or Reporting())
 
 
 def _open_client(settings: LLMSettings, stack: ExitStack) -> tuple[Client, Traffic]:

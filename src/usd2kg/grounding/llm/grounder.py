@@ -4,7 +4,8 @@ import math
 import time
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from concurrent.futures import ThreadPoolExecutor, as_completed
-from dataclasses import replace
+from contextlib import AbstractContextManager
+from dataclasses import dataclass, replace
 from typing import NamedTuple
 
 from usd2kg.errors import GroundingError
@@ -12,6 +13,7 @@ from usd2kg.grounding.context.views import ObjectView
 from usd2kg.grounding.lexical.alignment.alignment_rows import format_rows
 from usd2kg.grounding.lexical.concepts.taxonomy import load_taxonomy
 from usd2kg.grounding.llm.answers import Defect, ParsedAnswer, parse_answers, repair_request
+from usd2kg.grounding.llm.batch_jobs.desk import DeferredError
 from usd2kg.grounding.llm.class_lists import name_classes
 from usd2kg.grounding.llm.completion import Completion, Finish
 from usd2kg.grounding.llm.concept_alignment import ConceptAnswer, rows_of_answers
@@ -33,6 +35,7 @@ __all__ = ["LLMGrounder"]
 _INTERRUPTED = ParsedAnswer(
     None, Status.FAILED, "", "not asked: the run was interrupted; run the same command to resume"
 )
+_DEFERRED = ParsedAnswer(None, Status.FAILED, "", "not asked: waits for a batch job")
 
 
 class _Plan(NamedTuple):
@@ -44,6 +47,16 @@ class _Plan(NamedTuple):
     """Requests about `groups`, by index."""
     concepts: list[ConceptGroup] | None
     """The same groups with their concepts; None unless the strategy is `BY_CONCEPT`."""
+
+
+@dataclass(slots=True)
+class _Sample:
+    """The answers of one sample of a prompt, and what they count in the report."""
+
+    answers: list[ParsedAnswer]
+    repairs: int = 0
+    degenerate: int = 0
+    failure: GroundingError | None = None
 
 
 class LLMGrounder:
@@ -112,6 +125,18 @@ class LLMGrounder:
     def restart_report(self) -> None:
         """Count anew; grounders with the same client share its report."""
         self._client.restart_report()
+
+    def planning(self) -> AbstractContextManager[None]:
+        """Return a context in which `ground_views` only defers the prompts that it lacks for batch jobs."""
+        return self._client.planning()
+
+    def submit_deferred(self) -> bool:
+        """Submit the prompts that were deferred as batch jobs; return whether there are any."""
+        return self._client.submit_deferred()
+
+    def collect_deferred(self) -> None:
+        """Wait for these jobs."""
+        self._client.collect_deferred()
 
     @property
     def settings(self) -> Mapping[str, str]:
@@ -183,7 +208,7 @@ class LLMGrounder:
         self.report.objects += len(views)
         self.report.prompts += len(batches)
         predictions: dict[int, Prediction] = {}
-        for batch, answers in self._run(batches, tbox):
+        for batch, answers in self._run_in_rounds(batches, tbox):
             for index, answer in zip(batch.indices, answers, strict=True):
                 if answer.answer.defect is not None:
                     self.report.defects[answer.answer.defect] += len(groups[index])
@@ -196,8 +221,41 @@ class LLMGrounder:
         self.report.seconds += time.monotonic() - start
         return [predictions[index] for index in range(len(views))]
 
-    def _run(self, batches: list[Batch], tbox: TBox) -> Iterator[tuple[Batch, list[ScoredAnswer]]]:
-        """Yield the batches with their answers as they complete; an interrupt cancels the pending ones."""
+    def _run_in_rounds(self, batches: list[Batch], tbox: TBox) -> Iterator[tuple[Batch, list[ScoredAnswer]]]:
+        """Yield the batches with their answers; after each round, batch jobs complete the prompts that were deferred.
+
+        Repair prompts, which depend on answers, are deferred to a second round.
+        """
+        left = batches
+        while left:
+            deferred = []
+            for batch, answers in self._run(left, tbox):
+                if answers is None:
+                    deferred.append(batch)
+                else:
+                    yield batch, answers
+            left = deferred
+            if left and (self._client.is_planning or not self._fetch_deferred()):
+                answer = _DEFERRED if self._client.is_planning else _INTERRUPTED
+                yield from ((batch, [ScoredAnswer(answer, None)] * len(batch.indices)) for batch in left)
+                return
+
+    def _fetch_deferred(self) -> bool:
+        """Have batch jobs complete the deferred prompts; return whether the user has let them."""
+        if self.report.is_interrupted:
+            return False
+        try:
+            self._client.submit_deferred()
+            self._client.collect_deferred()
+        except KeyboardInterrupt:
+            self.report.is_interrupted = True
+        return not self.report.is_interrupted
+
+    def _run(self, batches: list[Batch], tbox: TBox) -> Iterator[tuple[Batch, list[ScoredAnswer] | None]]:
+        """Yield the batches with their answers as they complete; an interrupt cancels the pending ones.
+
+        The answers are None if a prompt is deferred.
+        """
         left = dict(enumerate(batches))
         with ThreadPoolExecutor(max_workers=self._workers) as pool:
             pending = {pool.submit(self._ask, batch, tbox): index for index, batch in left.items()}
@@ -214,46 +272,62 @@ class LLMGrounder:
                 interrupted = [ScoredAnswer(_INTERRUPTED, None)] * len(batch.indices)
                 yield batch, interrupted if future.cancelled() else future.result()
 
-    def _ask(self, batch: Batch, tbox: TBox) -> list[ScoredAnswer]:
+    def _ask(self, batch: Batch, tbox: TBox) -> list[ScoredAnswer] | None:
         numbers = range(self._first_sample, self._first_sample + self._samples)
-        samples = [self._sample(batch, number, tbox) for number in numbers]
-        return [vote([_score(answer) for answer in answers]) for answers in zip(*samples, strict=True)]
+        samples = []
+        for number in numbers:
+            try:
+                samples.append(self._sample(batch, number, tbox))
+            except DeferredError:
+                # The other samples are deferred to the same job.
+                continue
+        if len(samples) < len(numbers):
+            return None
+        self._count(samples)
+        answers = zip(*(sample.answers for sample in samples), strict=True)
+        return [vote([_score(answer) for answer in row]) for row in answers]
 
-    def _sample(self, batch: Batch, number: int, tbox: TBox) -> list[ParsedAnswer]:
+    def _count(self, samples: Sequence[_Sample]) -> None:
+        with self._client.lock:
+            for sample in samples:
+                self.report.repairs += sample.repairs
+                self.report.degenerate += sample.degenerate
+                self.report.failed += sample.failure is not None
+                if sample.failure is not None and not isinstance(sample.failure, NotAskedError):
+                    self.report.first_failure = self.report.first_failure or str(sample.failure)
+
+    def _sample(self, batch: Batch, number: int, tbox: TBox) -> _Sample:
+        """Return the answers of a sample.
+
+        Raises:
+            DeferredError: it waits for the next batch job.
+        """
         batch = replace(batch, request=replace(batch.request, sample=number))
         try:
             completion = self._client.complete(batch.request)
+        except DeferredError:
+            raise
         except GroundingError as error:
-            with self._client.lock:
-                self.report.failed += 1
-                if not isinstance(error, NotAskedError):
-                    self.report.first_failure = self.report.first_failure or str(error)
-            return [ParsedAnswer(None, Status.FAILED, "", str(error)) for _ in batch.indices]
-        answers = self._read(completion, batch, tbox)
-        if any(answer.status is Status.UNREADABLE for answer in answers):
-            return self._repair(batch, completion, answers, tbox)
-        return answers
+            failed = [ParsedAnswer(None, Status.FAILED, "", str(error)) for _ in batch.indices]
+            return _Sample(failed, failure=error)
+        sample = _read(completion, batch, tbox)
+        if any(answer.status is Status.UNREADABLE for answer in sample.answers):
+            self._repair(sample, batch, completion, tbox)
+        return sample
 
-    def _repair(
-        self, batch: Batch, completion: Completion, answers: list[ParsedAnswer], tbox: TBox
-    ) -> list[ParsedAnswer]:
-        """Return the answers with the unreadable ones replaced by those to a repair prompt."""
+    def _repair(self, sample: _Sample, batch: Batch, completion: Completion, tbox: TBox) -> None:
+        """Replace the unreadable answers by those to a repair prompt."""
         try:
-            second = self._client.complete(repair_request(batch, completion.text, answers))
+            second = self._client.complete(repair_request(batch, completion.text, sample.answers))
+        except DeferredError:
+            raise
         except GroundingError:
-            return answers
-        with self._client.lock:
-            self.report.repairs += 1
-        repaired = self._read(second, batch, tbox)
-        return [new if old.status is Status.UNREADABLE else old for old, new in zip(answers, repaired, strict=True)]
-
-    def _read(self, completion: Completion, batch: Batch, tbox: TBox) -> list[ParsedAnswer]:
-        answers = parse_answers(completion.text, batch, tbox, completion.tokens)
-        if completion.finish is not Finish.STOP or is_degenerate(completion.text):
-            with self._client.lock:
-                self.report.degenerate += 1
-            return [_as_degenerate(answer) for answer in answers]
-        return answers
+            return
+        repaired = _read(second, batch, tbox)
+        pairs = zip(sample.answers, repaired.answers, strict=True)
+        sample.answers = [new if old.status is Status.UNREADABLE else old for old, new in pairs]
+        sample.repairs += 1
+        sample.degenerate += repaired.degenerate
 
     def _predict(self, path: str, scored: ScoredAnswer, sharing: int) -> Prediction:
         answer = scored.answer
@@ -271,6 +345,13 @@ class LLMGrounder:
 
     def _scale(self, confidence: float | None) -> float | None:
         return confidence if confidence is None or self._scaling is None else self._scaling(confidence)
+
+
+def _read(completion: Completion, batch: Batch, tbox: TBox) -> _Sample:
+    answers = parse_answers(completion.text, batch, tbox, completion.tokens)
+    if completion.finish is not Finish.STOP or is_degenerate(completion.text):
+        return _Sample([_as_degenerate(answer) for answer in answers], degenerate=1)
+    return _Sample(answers)
 
 
 def _as_degenerate(answer: ParsedAnswer) -> ParsedAnswer:

@@ -44,6 +44,18 @@ class OperationalLimits:
     """Wait for a cache that another process has locked."""
     cache_poll_s: float = 0.01
     """Interval between attempts to switch a new cache to WAL mode."""
+    first_poll_s: float = 10.0
+    """Seconds until a batch job is asked for the first time; each wait is `poll_growth` times as long as the last."""
+    poll_growth: float = 1.5
+    max_poll_s: float = 120.0
+    max_failed_polls: int = 10
+    """Failures in a row, retries not counted, after which a batch job is left for a later run."""
+    job_settle_s: float = 60.0
+    """Age at which a batch job that has arrived is in the list of the service."""
+    clock_skew_s: float = 600.0
+    """Largest difference between the clock of the service and that of this machine."""
+    submission_lock_s: float = 600.0
+    """Wait for another process that submits batch jobs."""
     decode_batch_tokens: int = 512
     """Tokens that llama.cpp reads in one call."""
     min_context_tokens: int = 2048

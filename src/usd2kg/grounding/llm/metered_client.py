@@ -1,14 +1,18 @@
 """MeteredClient: a client with a cache, a budget and a report of what was sent and spent."""
 
 from collections import Counter
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
 from dataclasses import dataclass, field
 from decimal import Decimal
 from threading import Lock
 
 from usd2kg.errors import GroundingError
 from usd2kg.grounding.llm.answers import Defect
+from usd2kg.grounding.llm.batch_jobs.desk import BatchDesk
 from usd2kg.grounding.llm.cache import CompletionCache
 from usd2kg.grounding.llm.completion import Client, Completion, Request, Usage
+from usd2kg.grounding.llm.estimates import estimate_usage
 from usd2kg.grounding.llm.limits import LIMITS
 from usd2kg.grounding.llm.prices import Tariff, format_price
 from usd2kg.grounding.llm.serialization import request_key
@@ -75,6 +79,10 @@ class Spending:
     """Input and output tokens."""
     dollars: Decimal = Decimal(0)
     """US dollars, of models with a known price."""
+    reserved_tokens: int = 0
+    """Estimated tokens of prompts in batch jobs that have not ended."""
+    reserved_dollars: Decimal = Decimal(0)
+    """Estimated price of these prompts."""
     _lock: Lock = field(default_factory=Lock, repr=False, compare=False)
 
     def add(self, tokens: int, dollars: Decimal) -> None:
@@ -82,6 +90,12 @@ class Spending:
         with self._lock:
             self.tokens += tokens
             self.dollars += dollars
+
+    def reserve(self, tokens: int, dollars: Decimal) -> None:
+        """Add the estimated tokens and dollars of a prompt in a batch job; negative ones when the job has ended."""
+        with self._lock:
+            self.reserved_tokens += tokens
+            self.reserved_dollars += dollars
 
 
 class NotAskedError(GroundingError):
@@ -101,6 +115,7 @@ class MeteredClient:
         spending: Spending | None = None,
         tariff: Tariff | None = None,
         traffic: Traffic | None = None,
+        desk: BatchDesk | None = None,
     ) -> None:
         """Create a metered client.
 
@@ -110,8 +125,9 @@ class MeteredClient:
             is_refreshed: ignore cached completions and replace them.
             budget: None for no limits.
             spending: what other clients with the same budget have spent, and add to; None for a budget of its own.
-            tariff: the price of tokens; None if unknown.
+            tariff: the price of tokens, in batch jobs if there is a desk; None if unknown.
             traffic: the counter of `client`.
+            desk: submits prompts that are not cached as batch jobs; None to send each by `client`.
 
         Raises:
             GroundingError: the budget is in dollars, but there is no tariff.
@@ -125,6 +141,17 @@ class MeteredClient:
         self._client, self._cache, self._is_refreshed = client, cache, is_refreshed
         self._spending = spending or Spending()
         self._traffic = traffic or Traffic()
+        self._desk = desk
+        self._reserved = 0, Decimal(0)
+        """Estimated tokens and dollars of the prompts in jobs that are awaited."""
+        self._refused: dict[str, str] = {}
+        """Key of a prompt that the budget forbids → why."""
+        self._fetched: set[str] = set()
+        """Keys of completions from batch jobs of this run, which are new though they are in the cache."""
+        self._reported: set[str] = set()
+        """Of these, the ones that are in the report."""
+        self.is_planning = False
+        """Whether prompts are only collected for a batch job, see `planning`."""
         self.model = client.model
         self.tariff = tariff
         self._consecutive_failures = 0
@@ -140,12 +167,48 @@ class MeteredClient:
         """Replace the report by an empty one, except for the HTTP traffic; the budget counts on."""
         with self.lock:
             self.report = self._empty_report()
+            self._fetched -= self._reported
+            self._reported.clear()
+
+    @contextmanager
+    def planning(self) -> Iterator[None]:
+        """Have runs in this context only defer the prompts that they lack; what they report is forgotten."""
+        before, self.report, self.is_planning = self.report, self._empty_report(), True
+        try:
+            yield
+        finally:
+            self.report, self.is_planning = before, False
+
+    def submit_deferred(self) -> bool:
+        """Submit the prompts that `complete` has deferred as batch jobs, within the budget.
+
+        Return whether there were any.
+
+        Raises:
+            GroundingError: see `BatchDesk.submit`.
+        """
+        return self._desk is not None and self._desk.submit(self._refuse_beyond_budget)
+
+    def collect_deferred(self) -> None:
+        """Wait for these jobs, and count their tokens towards the budget. `complete` then returns their completions.
+
+        Raises:
+            KeyboardInterrupt: the user ends the wait.
+        """
+        assert self._desk is not None
+        for key, completion in self._desk.collect().items():
+            self._fetched.add(key)
+            usage = completion.usage
+            self._spending.add(usage.input_tokens + usage.output_tokens, self._price(usage))
+        self._spending.reserve(-self._reserved[0], -self._reserved[1])
+        self._reserved = 0, Decimal(0)
 
     def complete(self, request: Request) -> Completion:
         """Return the cached completion of a request, or else the model's.
 
         Raises:
-            GroundingError: the request failed, the budget is spent, or too many prompts in a row have failed.
+            GroundingError: the request failed, the budget is spent, or too many prompts in a row have failed;
+                `DeferredError` if it waits for the next batch job.
         """
         cached = None
         if self._cache is not None and not self._is_refreshed:
@@ -153,6 +216,10 @@ class MeteredClient:
         if cached is not None:
             self._count_cached(request, cached)
             return cached
+        if self._desk is not None:
+            if (problem := self._refused.get(request_key(self.model, request))) is not None:
+                raise NotAskedError(problem)
+            self._desk.defer(request)
         self._check_budget()
         try:
             completion = self._client.complete(request)
@@ -166,24 +233,66 @@ class MeteredClient:
         return completion
 
     def _count_cached(self, request: Request, completion: Completion) -> None:
+        if self.is_planning:
+            return
+        key = request_key(self.model, request)
+        with self.lock:
+            is_counted, is_new = key in self._reported, key in self._fetched
+            if is_new:
+                self._reported.add(key)
+        if is_new:
+            # A run asks again for what it has when it goes on after a job.
+            if not is_counted:
+                self._report_new(key, completion.usage)
+            return
         with self.lock:
             self.report.cached += 1
             self.report.cached_usage += completion.usage
-            self.report.keys.add(request_key(self.model, request))
+            self.report.keys.add(key)
             if self.tariff is not None and self.report.cached_price is not None:
                 self.report.cached_price += self.tariff(completion.usage)
 
     def _count(self, request: Request, completion: Completion) -> None:
         usage = completion.usage
-        price = Decimal(0) if self.tariff is None else self.tariff(usage)
-        self._spending.add(usage.input_tokens + usage.output_tokens, price)
+        self._spending.add(usage.input_tokens + usage.output_tokens, self._price(usage))
         with self.lock:
             self._consecutive_failures = 0
+        self._report_new(request_key(self.model, request), usage)
+
+    def _report_new(self, key: str, usage: Usage) -> None:
+        with self.lock:
             self.report.completions += 1
             self.report.usage += usage
-            self.report.keys.add(request_key(self.model, request))
+            self.report.keys.add(key)
             if self.report.price is not None:
-                self.report.price += price
+                self.report.price += self._price(usage)
+
+    def _price(self, usage: Usage) -> Decimal:
+        return Decimal(0) if self.tariff is None else self.tariff(usage)
+
+    def _refuse_beyond_budget(self, running: Mapping[str, Request], new: Mapping[str, Request]) -> set[str]:
+        """Reserve the estimated price of prompts in batch jobs, and return the keys of those that are not submitted."""
+        for key, request in (*running.items(), *new.items()):
+            usage = estimate_usage(request)
+            tokens, dollars = usage.input_tokens + usage.output_tokens, self._price(usage)
+            problem = self._exceeds_budget(tokens, dollars) if key in new else None
+            if problem is not None:
+                self._refused[key] = problem
+                continue
+            self._spending.reserve(tokens, dollars)
+            self._reserved = self._reserved[0] + tokens, self._reserved[1] + dollars
+        return self._refused.keys() & new.keys()
+
+    def _exceeds_budget(self, tokens: int, dollars: Decimal) -> str | None:
+        """Return why a prompt with this estimate is not submitted; None if the budget allows it."""
+        used = self._spending.tokens + self._spending.reserved_tokens + tokens
+        spent = self._spending.dollars + self._spending.reserved_dollars + dollars
+        if self._budget.tokens is not None and used > self._budget.tokens:
+            return f"not asked: about {used} tokens exceed the budget of {self._budget.tokens}; raise --token-budget"
+        if self._budget.dollars is not None and spent > self._budget.dollars:
+            budget = format_price(self._budget.dollars)
+            return f"not asked: about {format_price(spent)} exceed the budget of {budget}; raise --budget"
+        return None
 
     def _check_budget(self) -> None:
         failures = self._consecutive_failures

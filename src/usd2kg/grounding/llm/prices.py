@@ -10,8 +10,9 @@ from typing import Any
 from usd2kg.errors import GroundingError
 from usd2kg.grounding.llm.completion import Usage
 from usd2kg.grounding.llm.model_reference import KEY_VARIABLES, ModelReference, parse_model_reference
+from usd2kg.grounding.llm.settings import BATCH
 
-__all__ = ["Tariff", "find_tariff", "format_price", "parse_price"]
+__all__ = ["Tariff", "discount_batch", "find_tariff", "format_price", "parse_price"]
 
 Tariff = Callable[[Usage], Decimal]
 """Function that returns the price of one completion in US dollars. The price per token may depend on its length."""
@@ -23,11 +24,15 @@ _SMALLEST_SHOWN = Decimal("0.0001")
 """US dollars."""
 
 
-def find_tariff(model: str) -> Tariff | None:
+def find_tariff(model: str, *, is_batched: bool = False) -> Tariff | None:
     """Return the list price of a model; None if it is not listed, as for local servers and weights.
 
     If the model string has a URL, the provider is found by it: OpenRouter, for example, has its own prices. An Azure
     deployment has a price only if it is called like its model.
+
+    Args:
+        model: the model string.
+        is_batched: return the price in batch jobs: as listed, else by the rule of `discount_batch`.
 
     Raises:
         GroundingError: the model string has a known provider but is malformed.
@@ -35,14 +40,14 @@ def find_tariff(model: str) -> Tariff | None:
     if model.partition(":")[0] not in KEY_VARIABLES:
         return None
     try:
-        tariff = _list_price(parse_model_reference(model))
+        tariff = _list_price(parse_model_reference(model), is_batched)
         tariff(Usage())
     except (ImportError, LookupError):
         return None
     return tariff
 
 
-def _list_price(reference: ModelReference) -> Tariff:
+def _list_price(reference: ModelReference, is_batched: bool) -> Tariff:
     import genai_prices  # noqa: PLC0415 - the extra may be missing
 
     provider = _PRICE_LISTS.get(reference.provider, reference.provider)
@@ -57,9 +62,17 @@ def _list_price(reference: ModelReference) -> Tariff:
             cache_write_tokens=min(usage.written_tokens, usage.input_tokens - cached),
             output_tokens=usage.output_tokens,
         )
-        return genai_prices.calc_price(counts, reference.name, **where).total_price
+        context = {"processing": "batch"} if is_batched else None
+        found = genai_prices.calc_price(counts, reference.name, **where, price_context=context)
+        is_listed = any(one.when == context for one in found.model.price_variants or ())
+        return found.total_price * (BATCH.price_share if is_batched and not is_listed else 1)
 
     return price
+
+
+def discount_batch(tariff: Tariff) -> Tariff:
+    """Return the tariff of batch jobs by the published rule of OpenAI, Anthropic and Gemini: a share of all prices."""
+    return lambda usage: tariff(usage) * BATCH.price_share
 
 
 def parse_price(text: str) -> Tariff:

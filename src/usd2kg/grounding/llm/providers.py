@@ -17,8 +17,17 @@ if TYPE_CHECKING:
     from httpx2 import AsyncClient, Response
     from pydantic_ai.models import Model
     from pydantic_ai.models.bedrock import BedrockConverseModel
+    from pydantic_ai.models.openai import OpenAIChatModel
+    from pydantic_ai.profiles.openai import OpenAIModelProfile
 
-__all__ = ["Access", "close_connections", "closing_responses", "make_provider_model", "open_http"]
+__all__ = [
+    "Access",
+    "close_connections",
+    "closing_responses",
+    "make_batch_model",
+    "make_provider_model",
+    "open_http",
+]
 
 _opened: ContextVar["list[Response]"] = ContextVar("opened")
 
@@ -96,6 +105,19 @@ def make_provider_model(reference: ModelReference, access: Access) -> "Model[Any
     return _MODEL_FACTORIES[reference.provider](reference, access)
 
 
+def make_batch_model(reference: ModelReference, provider_model: "Model[Any]") -> "Model[Any] | None":
+    """Return the pydantic-ai model for batch jobs; None if the service has no batch endpoint that the library knows."""
+    if reference.provider == "openai":
+        from pydantic_ai.models.openai import OpenAIResponsesModel  # noqa: PLC0415
+        from pydantic_ai.providers.openai import OpenAIProvider  # noqa: PLC0415
+
+        # The library's jobs contain requests to the Responses API.
+        chat = cast("OpenAIChatModel", provider_model)
+        provider = OpenAIProvider(openai_client=chat.client)
+        provider_model = OpenAIResponsesModel(reference.name, provider=provider, profile=_openai_profile(reference))
+    return provider_model if provider_model.batch_max_requests is not None else None
+
+
 def _make_google(reference: ModelReference, access: Access) -> "Model[Any]":
     from pydantic_ai.models.google import GoogleModel  # noqa: PLC0415
     from pydantic_ai.providers.google import GoogleProvider  # noqa: PLC0415
@@ -115,11 +137,20 @@ def _make_anthropic(reference: ModelReference, access: Access) -> "Model[Any]":
 
 def _make_openai(reference: ModelReference, access: Access) -> "Model[Any]":
     from pydantic_ai.models.openai import OpenAIChatModel  # noqa: PLC0415
-    from pydantic_ai.profiles.openai import OpenAIModelProfile  # noqa: PLC0415
     from pydantic_ai.providers.openai import OpenAIProvider  # noqa: PLC0415
 
+    provider = OpenAIProvider(base_url=reference.url, api_key=access.key, http_client=access.http)
+    return OpenAIChatModel(reference.name, provider=provider, profile=_openai_profile(reference))
+
+
+def _openai_profile(reference: ModelReference) -> "OpenAIModelProfile | None":
+    """Return the features of a server with OpenAI's protocol; None for OpenAI itself."""
+    from pydantic_ai.profiles.openai import OpenAIModelProfile  # noqa: PLC0415
+
+    if not reference.is_openai_compatible:
+        return None
     # The library infers features from OpenAI's model names. For other servers, use the basic protocol only.
-    plain = OpenAIModelProfile(
+    return OpenAIModelProfile(
         json_schema_transformer=None,
         supports_json_schema_output=True,
         supports_json_object_output=False,
@@ -129,8 +160,6 @@ def _make_openai(reference: ModelReference, access: Access) -> "Model[Any]":
         openai_system_prompt_role="system",
         openai_chat_supports_max_completion_tokens=False,
     )
-    provider = OpenAIProvider(base_url=reference.url, api_key=access.key, http_client=access.http)
-    return OpenAIChatModel(reference.name, provider=provider, profile=plain if reference.is_openai_compatible else None)
 
 
 def _make_azure(reference: ModelReference, access: Access) -> "Model[Any]":

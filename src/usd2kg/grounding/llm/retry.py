@@ -12,7 +12,7 @@ from usd2kg.grounding.llm.limits import LIMITS
 if TYPE_CHECKING:
     from pydantic_ai.exceptions import AgentRunError
 
-__all__ = ["Failure", "Redactor", "RetryPolicy", "advise", "convert_error"]
+__all__ = ["Failure", "Redactor", "RetryPolicy", "advise", "convert_error", "is_transient"]
 
 _Answer = TypeVar("_Answer")
 
@@ -101,10 +101,10 @@ def convert_error(error: "AgentRunError", redact: Redactor) -> Failure:
         message = redact(_find_message(error.body)) or "no message"
         if (error.retry_after or 0.0) > LIMITS.max_retry_after_s:
             message += f" (asks to wait {error.retry_after:.0f} s)"
-        return Failure(message, status, _is_transient(status), error.retry_after)
+        return Failure(message, status, is_transient(status), error.retry_after)
     # An error inside a stream follows an accepted request, so the request itself is valid.
-    is_transient = error.in_stream or isinstance(error, ModelConnectionError | ModelRequestTimeout)
-    return Failure(redact(str(error)), None, is_transient)
+    may_pass = error.in_stream or isinstance(error, ModelConnectionError | ModelRequestTimeout)
+    return Failure(redact(str(error)), None, may_pass)
 
 
 def advise(failure: Failure, key_variables: str) -> str:
@@ -123,7 +123,8 @@ def advise(failure: Failure, key_variables: str) -> str:
     return "expected a request that the server takes, check the model's limits and the options"
 
 
-def _is_transient(status: int) -> bool:
+def is_transient(status: int) -> bool:
+    """Return whether a request with this HTTP status may succeed later."""
     # 424: the model failed during a stream of Bedrock.
     return status in (408, 409, 424, 429) or status >= 500
 

@@ -16,6 +16,7 @@ __all__ = [
     "make_entry",
     "order_request_fields",
     "read_completion",
+    "read_request",
     "read_request_fields",
     "request_fields",
     "request_key",
@@ -106,6 +107,19 @@ def read_request_fields(data: Any) -> dict[str, Any]:
     if has_images and not (images and all(isinstance(image, str) and _DIGEST.fullmatch(image) for image in images)):
         raise ValueError(f"images of request is {str(images)[:40]!r}, expected SHA-256 digests")
     return order_request_fields(values)
+
+
+def read_request(fields: Mapping[str, Any]) -> Request:
+    """Return the request with these stored fields, without its images, of which only the digests are stored."""
+    return Request(
+        system=fields["system"],
+        user=fields["user"],
+        schema=fields["schema"],
+        max_tokens=fields["most_tokens"],
+        temperature=fields["temperature"],
+        is_thinking=fields["is_thinking"],
+        sample=fields["sample"],
+    )
 
 
 def order_request_fields(values: Mapping[str, Any]) -> dict[str, Any]:

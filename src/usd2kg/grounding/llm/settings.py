@@ -1,10 +1,12 @@
 """Settings of the language-model grounder, from `knowledge/settings/llm.toml`."""
 
 from dataclasses import dataclass
+from decimal import Decimal
 
 from usd2kg.knowledge import read_settings
 
 __all__ = [
+    "BATCH",
     "COMMANDS",
     "CONCEPTS",
     "DECODING",
@@ -12,6 +14,7 @@ __all__ = [
     "ESTIMATES",
     "MEMBERS",
     "SAMPLING",
+    "BatchSettings",
     "CommandSettings",
     "ConceptSettings",
     "DecodingSettings",
@@ -53,12 +56,25 @@ class SamplingSettings:
 
 
 @dataclass(frozen=True, slots=True)
+class BatchSettings:
+    """Batch jobs."""
+
+    price_percent: int
+
+    @property
+    def price_share(self) -> Decimal:
+        """The price of a token as a share of its price in single requests."""
+        return Decimal(self.price_percent) / 100
+
+
+@dataclass(frozen=True, slots=True)
 class EstimateSettings:
     """Estimates of token counts, for use before a server has counted them."""
 
     bytes_per_token: int
     pixels_per_token: int
     reasoning_tokens: int
+    noun_tokens: int
 
 
 @dataclass(frozen=True, slots=True)
@@ -92,6 +108,7 @@ class CommandSettings:
 
 DEGENERATION = read_settings("llm", "degeneration", DegenerationSettings)
 DECODING = read_settings("llm", "decoding", DecodingSettings)
+BATCH = read_settings("llm", "batch", BatchSettings)
 SAMPLING = read_settings("llm", "sampling", SamplingSettings)
 ESTIMATES = read_settings("llm", "estimates", EstimateSettings)
 MEMBERS = read_settings("llm", "members", MemberSettings)

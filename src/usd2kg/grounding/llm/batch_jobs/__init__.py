@@ -1,0 +1,1 @@
+"""Batch jobs: prompts that a service answers within a day, at half the price."""
