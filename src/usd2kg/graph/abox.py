@@ -1,8 +1,9 @@
 """Instantiate a grounded scene as a knowledge graph: an ABox over the user's TBox."""
 
 from collections import Counter
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from itertools import chain, starmap
 from pathlib import Path
 
 import pyoxigraph as ox
@@ -18,6 +19,7 @@ from usd2kg.graph.iris import check_base, default_base, individual_iri
 from usd2kg.graph.joint_patterns import resolve_joints
 from usd2kg.graph.justification import justify_class, justify_refusal
 from usd2kg.graph.options import GraphOptions
+from usd2kg.graph.packed_triples import PackedTriples
 from usd2kg.graph.physical_properties import declare_individual
 from usd2kg.graph.profiles import Profile, plain_profile, soma_profile, uses_soma
 from usd2kg.graph.provenance import (
@@ -56,8 +58,8 @@ class KnowledgeGraph(RichDisplay):
     profile: str
     imports: tuple[str, ...]
     """IRIs of the imported ontologies."""
-    triples: tuple[ox.Triple, ...]
-    """Ontology header and declarations, then one block per object."""
+    triples: Sequence[ox.Triple]
+    """Ontology header and declarations, then one block per object; without duplicates."""
     prefixes: dict[str, str]
     relations: tuple[Relation, ...]
     individuals: int
@@ -98,8 +100,9 @@ def instantiate(
     chosen = _make_profile(profile, tbox, options)
     found = tuple(find_relations(scene, tbox, grounding) if relations is None else relations)
     imports = tuple(_imports(tbox, chosen))
+    prefixes = {**document_prefixes(tbox), "": base}
     with paused_collection():
-        triples = _GraphBuilder(scene, tbox, grounding, base, chosen, imports, options, found).build()
+        triples = _GraphBuilder(scene, tbox, grounding, base, chosen, imports, options, found).build(prefixes)
     counts = Counter(p.class_iri for p in grounding.predictions if p.class_iri)
     return KnowledgeGraph(
         iri=base.rstrip("#/"),
@@ -107,7 +110,7 @@ def instantiate(
         profile=chosen.name,
         imports=imports,
         triples=triples,
-        prefixes={**document_prefixes(tbox), "": base},
+        prefixes=prefixes,
         relations=found,
         individuals=len(scene.objects),
         classes=dict(sorted(counts.items())),
@@ -172,23 +175,21 @@ class _GraphBuilder:
         self.properties: set[ox.NamedNode] = set()
         self.classes: set[ox.NamedNode] = set()
 
-    def build(self) -> tuple[ox.Triple, ...]:
+    def build(self, prefixes: Mapping[str, str]) -> PackedTriples:
         """Return all triples without duplicates."""
-        statements = [triple for block in self._blocks() for triple in self._record(block)]
-        declarations = list(declare_terms(self.properties, self.classes))
+        statements = PackedTriples(chain.from_iterable(map(self._record, self._blocks())), prefixes)
         used = {p.class_iri for p in self.grounding.predictions if p.class_iri} | set(self.room_classes.values())
+        declarations = declare_terms(self.properties, self.classes)
         head = dict.fromkeys((*self._header(), *declarations, *declare_classes(used, self.tbox)))
-        return (*(ox.Triple(*triple) for triple in head), *statements)
+        return PackedTriples(starmap(ox.Triple, head), prefixes) + statements
 
-    def _record(self, block: Iterable[Triple]) -> Iterator[ox.Triple]:
-        """Yield the triples of one block without duplicates, and record the terms they use."""
-        for triple in dict.fromkeys(block):
-            _, predicate, value = triple
-            self.properties.add(predicate)
-            if predicate == RDF.type:
-                assert isinstance(value, ox.NamedNode), "classes of individuals have names"
-                self.classes.add(value)
-            yield ox.Triple(*triple)
+    def _record(self, block: Iterable[Triple]) -> Iterable[ox.Triple]:
+        """Return the triples of one block without duplicates, and record the terms they use."""
+        stated = list(block)
+        self.properties.update(predicate for _, predicate, _ in stated)
+        kind = RDF.type
+        self.classes.update(v for _, p, v in stated if p == kind and isinstance(v, ox.NamedNode))
+        return dict.fromkeys(starmap(ox.Triple, stated))
 
     def _blocks(self) -> Iterator[Iterable[Triple]]:
         """Yield blocks of triples that have no triple in common."""

@@ -1,7 +1,7 @@
 """NamedGraph: a scene or an ontology as a named graph of a store."""
 
 import hashlib
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
@@ -35,13 +35,13 @@ class NamedGraph:
 
     iri: str
     """IRI of the OWL ontology that the triples form: the scene's base without its last / or #."""
-    triples: tuple[ox.Triple, ...]
+    triples: Sequence[ox.Triple]
     """Without duplicates."""
 
 
 def make_named_graph(graph: "KnowledgeGraph") -> NamedGraph:
     """Return the named graph of a scene."""
-    return NamedGraph(graph.iri, tuple(dict.fromkeys(graph.triples)))
+    return NamedGraph(graph.iri, graph.triples)
 
 
 def make_ontology_graph(tbox: "TBox", closure: "Closure") -> NamedGraph:

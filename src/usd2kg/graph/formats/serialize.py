@@ -10,6 +10,7 @@ import pyoxigraph as ox
 from usd2kg.errors import GraphError
 from usd2kg.files import write_whole
 from usd2kg.graph.abox import KnowledgeGraph
+from usd2kg.graph.packed_triples import PackedTriples, subject_chunks, turtle_statements
 from usd2kg.graph.rdf_document import RDF_FORMATS, GraphDocument, document_of, refuse_rdf12
 from usd2kg.graph.vocabulary import PREFIXES
 from usd2kg.ontology import write_functional_syntax
@@ -106,12 +107,10 @@ def _prefix_lines(prefixes: Mapping[str, str]) -> bytes:
 
 def _statements(triples: Sequence[ox.Triple], prefixes: Mapping[str, str]) -> Chunks:
     """Yield Turtle statements without prefix declarations."""
-    for chunk in _chunks(triples):
-        data = _bytes(ox.serialize(chunk, format=ox.RdfFormat.TURTLE, prefixes=dict(prefixes)))
-        end = 0
-        for _ in prefixes:
-            end = data.index(b"\n", end) + 1
-        yield memoryview(data)[end:]
+    if isinstance(triples, PackedTriples) and triples.prefixes == prefixes:
+        yield from triples.turtle()
+    else:
+        yield from (turtle_statements(chunk, prefixes) for chunk in subject_chunks(triples, _CHUNK))
 
 
 def _n_triples(document: GraphDocument) -> Chunks:
@@ -131,19 +130,8 @@ def _graph_name(name: str) -> str:
 
 
 def _lines(triples: Sequence[ox.Triple]) -> Iterator[bytes]:
-    for chunk in _chunks(triples):
+    for chunk in subject_chunks(triples, _CHUNK):
         yield _bytes(ox.serialize(chunk, format=ox.RdfFormat.N_TRIPLES))
-
-
-def _chunks(triples: Sequence[ox.Triple]) -> Iterator[Sequence[ox.Triple]]:
-    """Yield chunks of triples that end where the subject changes."""
-    start = 0
-    while start < len(triples):
-        end = start + _CHUNK
-        while end < len(triples) and triples[end].subject == triples[end - 1].subject:
-            end += 1
-        yield triples[start:end]
-        start = end
 
 
 def _bytes(data: bytes | None) -> bytes:
