@@ -1,4 +1,4 @@
-"""studio, ask: serve a scene in this process, and send requests to it."""
+"""studio, ask, fetch, listen: serve a scene in this process, and send requests to it."""
 
 import json
 import tempfile
@@ -20,11 +20,16 @@ KEY = "benchmark-of-the-studio"
 
 
 @contextmanager
-def studio(scene: Path) -> Iterator[str]:
-    """Serve a scene from this process; yields the address of the page."""
+def studio(scene: Path, folder: Path | None = None) -> Iterator[str]:
+    """Serve a scene from this process; yields the address of the page.
+
+    Args:
+        scene: the stage or graph.
+        folder: folder of the project; None for a temporary one.
+    """
     with (
-        tempfile.TemporaryDirectory() as folder,
-        open_project(Path(folder) / "project", ProjectSources(scene)) as project,
+        tempfile.TemporaryDirectory() as temporary,
+        open_project(folder or Path(temporary) / "project", ProjectSources(scene)) as project,
         open_socket(Address()) as socket,
     ):
         socket.listen()
@@ -42,12 +47,22 @@ def studio(scene: Path) -> Iterator[str]:
 
 def fetch(address: str, path: str, body: Any = None) -> bytes:
     """Return the answer to a request."""
+    with urllib.request.urlopen(_request(address, path, body), timeout=60) as response:
+        content: bytes = response.read()
+    return content
+
+
+def listen(address: str) -> None:
+    """Open the stream of changes, as a page that is up to date, and close it."""
+    with urllib.request.urlopen(_request(address, "events"), timeout=60):
+        pass
+
+
+def _request(address: str, path: str, body: Any = None) -> urllib.request.Request:
     request = urllib.request.Request(f"{address}api/{path}", data=None if body is None else json.dumps(body).encode())
     request.add_header("Authorization", f"Bearer {KEY}")
     request.add_header("Content-Type", "application/json")
-    with urllib.request.urlopen(request, timeout=60) as response:
-        content: bytes = response.read()
-    return content
+    return request
 
 
 def ask(address: str, path: str, body: Any = None) -> Any:

@@ -1,31 +1,33 @@
-/** Starts the page: reads the access key, loads the scene, listens to changes. */
+/** The page: shows the scene, asks for the access key, listens to changes. */
 
 import { render } from "preact";
-import { ApiFailure, createClient, readKey, storeKey } from "./api/client";
+import { ApiFailure, storeKey } from "./api/client";
 import { listen } from "./api/events";
-import { requestScene } from "./api/opening";
 import type { ChangeEvent, SuggestionsEvent } from "./api/types";
 import { App } from "./panels/App";
 import { KeyForm } from "./panels/KeyForm";
+import type { Start } from "./start";
 import { startWithComparison } from "./state/comparison";
 import { Store } from "./state/store";
 
 const host = document.getElementById("app") as HTMLElement;
 
-async function start(): Promise<void> {
-  const key = readKey(location, sessionStorage, (url) => history.replaceState(null, "", url));
-  if (key === null) {
-    askForKey("");
-    return;
-  }
-  const client = createClient(key);
+type Open = (key: string) => Start;
+
+/** Runs the page; asks for the key if no scene is being opened. */
+export function run(start: Start | null, open: Open): void {
+  if (start === null) askForKey("", open);
+  else void show(start, open);
+}
+
+async function show({ client, scene, states, picture }: Start, open: Open): Promise<void> {
   host.replaceChildren();
   try {
-    const [data, states] = await requestScene(client, localStorage);
-    const store = new Store(client, data, states, localStorage);
-    document.title = `${data.title} · usd2kg studio`;
+    const firstPicture = await picture;
+    const store = new Store(client, await scene, await states, localStorage);
+    document.title = `${store.model.data.title} · usd2kg studio`;
     startWithComparison(store);
-    render(<App store={store} />, host);
+    render(<App store={store} firstPicture={firstPicture} />, host);
     void store.loadQueue();
     const handlers = {
       onChange: (change: ChangeEvent) => store.receive(change),
@@ -34,23 +36,22 @@ async function start(): Promise<void> {
         if (!isConnected) store.saving.value = "offline";
         else if (store.saving.value === "offline") void store.reload();
       },
-      onDenied: () => askForKey("The studio was restarted with another key."),
+      onDenied: () => askForKey("The studio was restarted with another key.", open),
     };
     void listen(client, () => store.version.value, handlers, new AbortController().signal);
   } catch (error) {
-    if (error instanceof ApiFailure && error.status === 401) askForKey("This key is wrong.");
+    (await picture)?.remove();
+    if (error instanceof ApiFailure && error.status === 401) askForKey("This key is wrong.", open);
     else render(<p class="fatal">{error instanceof Error ? error.message : String(error)}</p>, host);
   }
 }
 
-function askForKey(problem: string): void {
+function askForKey(problem: string, open: Open): void {
   storeKey("", sessionStorage);
   const submit = (key: string) => {
     storeKey(key, sessionStorage);
     render(null, host);
-    void start();
+    run(open(key), open);
   };
   render(<KeyForm problem={problem} onSubmit={submit} />, host);
 }
-
-void start();

@@ -1,6 +1,6 @@
 import { describe, expect, it } from "vitest";
 import type { Client } from "../src/api/client";
-import { requestScene } from "../src/api/opening";
+import { openScene } from "../src/api/opening";
 import { storeReviewer } from "../src/state/reviewer";
 
 function recording(): { client: Client; paths: string[] } {
@@ -21,14 +21,15 @@ describe("the first requests", () => {
 
   it("ask for the states of the reviewer whom the server suggests, if this browser knows none", async () => {
     const { client, paths } = recording();
-    expect(await requestScene(client, storage)).toEqual([{ path: "scene" }, { path: "states" }]);
+    const { scene, states } = openScene("key", storage, client);
+    expect([await scene, await states]).toEqual([{ path: "scene" }, { path: "states" }]);
     expect(paths).toEqual(["scene", "states"]);
   });
 
   it("ask for the states of the reviewer who has typed a name, so that undo is of the own decisions", async () => {
     storeReviewer("Ann & Bob", storage);
     const { client, paths } = recording();
-    await requestScene(client, storage);
+    openScene("key", storage, client);
     expect(paths).toEqual(["scene", "states?reviewer=Ann%20%26%20Bob"]);
   });
 });

@@ -6,7 +6,8 @@ import { focusOf } from "../src/state/candidates";
 import { findAgain, groupAfter, withoutObjects } from "../src/state/queue";
 import { applyStates, durationText, isOpen, predictStates, superclass } from "../src/state/review";
 import { Store } from "../src/state/store";
-import { cutAway, findHolders, occluders } from "../src/viewer/appearance";
+import { occluders } from "../src/viewer/appearance";
+import { cutAway, findHolders } from "../src/viewer/cutaway";
 import { makeStore, QUEUE, reply } from "./fakeStore";
 import { makeScene, makeState, makeStates } from "./scene";
 

@@ -8,6 +8,7 @@ from dataclasses import asdict
 from typing import Any, TypeVar
 
 from starlette.applications import Starlette
+from starlette.background import BackgroundTask
 from starlette.middleware import Middleware
 from starlette.requests import Request
 from starlette.responses import JSONResponse, Response, StreamingResponse
@@ -153,11 +154,11 @@ class _Api:
     # The scene.
 
     async def _scene(self, _: Request) -> Response:
-        # The page asks for meshes next; the stage is opened meanwhile.
-        self._pictures.manifest()
         has_comparison = self._comparison is not None
         return JSONResponse(
-            {**scene_json(self._session, self._indices, self._reviewer), "has_comparison": has_comparison}
+            {**scene_json(self._session, self._indices, self._reviewer), "has_comparison": has_comparison},
+            # The page draws the boxes, then asks for meshes; the stage is opened meanwhile.
+            background=BackgroundTask(self._pictures.manifest),
         )
 
     async def _states(self, request: Request) -> Response:

@@ -1,12 +1,24 @@
 /** The first requests of the page. */
 
 import { storedReviewer } from "../state/reviewer";
-import type { Client } from "./client";
+import { type Client, createClient } from "./client";
 import type { SceneData, States } from "./types";
 
-/** Returns the scene, and the states as this browser's reviewer sees them. */
-export function requestScene(client: Client, storage: Pick<Storage, "getItem">): Promise<[SceneData, States]> {
+/** What is on its way while the page is loading. */
+export interface Opening {
+  client: Client;
+  scene: Promise<SceneData>;
+  /** As this browser's reviewer sees them. */
+  states: Promise<States>;
+}
+
+/** Asks for the scene and the states. */
+export function openScene(key: string, storage: Pick<Storage, "getItem">, client: Client = createClient(key)): Opening {
   const reviewer = storedReviewer(storage);
-  const states = reviewer === null ? "states" : `states?reviewer=${encodeURIComponent(reviewer)}`;
-  return Promise.all([client.get<SceneData>("scene"), client.get<States>(states)]);
+  const path = reviewer === null ? "states" : `states?reviewer=${encodeURIComponent(reviewer)}`;
+  const opening = { client, scene: client.get<SceneData>("scene"), states: client.get<States>(path) };
+  // Whoever awaits them reports the error; nobody may await them yet.
+  opening.scene.catch(() => {});
+  opening.states.catch(() => {});
+  return opening;
 }

@@ -4,6 +4,7 @@ import { useEffect, useMemo, useRef } from "preact/hooks";
 import type { ViewCommands } from "../keys/bindings";
 import { handleKey } from "../keys/keyboard";
 import type { Store } from "../state/store";
+import type { FirstPicture } from "../viewer/firstPicture";
 import { BulkDialog } from "./BulkDialog";
 import { ChangesDialog } from "./ChangesDialog";
 import { ClassSearch } from "./ClassSearch";
@@ -19,7 +20,7 @@ import { missingPicture, ThumbnailCache, Thumbnails } from "./Thumbnail";
 import { TopBar } from "./TopBar";
 import { ViewerPanel } from "./ViewerPanel";
 
-export function App({ store }: { store: Store }) {
+export function App({ store, firstPicture }: { store: Store; firstPicture: FirstPicture | null }) {
   const view = useRef<ViewCommands | null>(null);
   const commands = useMemo<ViewCommands>(
     () => ({
@@ -43,7 +44,7 @@ export function App({ store }: { store: Store }) {
       <div class={store.isDrawerOpen.value ? "app" : "app drawer-closed"}>
         <TopBar store={store} view={commands} />
         <Sidebar store={store} />
-        <ViewerPanel store={store} view={view} />
+        <ViewerPanel store={store} view={view} firstPicture={firstPicture} />
         <ObjectPanel store={store} />
         <DrawerPanel store={store} />
         <StatusBar store={store} />

@@ -1,7 +1,7 @@
 /** The 3D view with its legend and switches; it shows what the state of the page says. */
 
 import { computed, effect } from "@preact/signals";
-import { useEffect, useRef, useState } from "preact/hooks";
+import { useEffect, useLayoutEffect, useRef, useState } from "preact/hooks";
 import type { ObjectIndex } from "../api/types";
 import type { ViewCommands } from "../keys/bindings";
 import { pageOf } from "../state/candidates";
@@ -12,16 +12,26 @@ import type { Store } from "../state/store";
 import { followSupports } from "../state/supports";
 import { annotate } from "../viewer/annotations";
 import { appearanceOf, MAX_WATCHED, occluders } from "../viewer/appearance";
+import type { FirstPicture } from "../viewer/firstPicture";
 import { loadGeometry } from "../viewer/loading";
 import { Viewer } from "../viewer/viewer";
 import { Popover } from "./Popover";
 
-export function ViewerPanel({ store, view }: { store: Store; view: { current: ViewCommands | null } }) {
+interface ViewerProps {
+  store: Store;
+  view: { current: ViewCommands | null };
+  firstPicture: FirstPicture | null;
+}
+
+export function ViewerPanel({ store, view, firstPicture }: ViewerProps) {
   const host = useRef<HTMLDivElement>(null);
   const [problem, setProblem] = useState("");
   const [isLost, setLost] = useState(false);
   const [legend, setLegend] = useState<LegendEntry[]>([]);
   const [loading, setLoading] = useState<[number, number]>([0, 0]);
+  useLayoutEffect(() => {
+    if (host.current !== null) firstPicture?.moveTo(host.current);
+  }, [firstPicture]);
   useEffect(() => {
     if (host.current === null) return;
     let viewer: Viewer;
@@ -32,8 +42,10 @@ export function ViewerPanel({ store, view }: { store: Store; view: { current: Vi
           store.hovered.value = object ?? -1;
         },
         onContext: setLost,
+        onFirstFrame: () => firstPicture?.remove(),
       });
     } catch {
+      firstPicture?.remove();
       setProblem("This browser has no WebGL 2, so there is no picture. Everything else works.");
       return;
     }
@@ -49,7 +61,7 @@ export function ViewerPanel({ store, view }: { store: Store; view: { current: Vi
       for (const each of stop) each();
       viewer.dispose();
     };
-  }, [store, view]);
+  }, [store, view, firstPicture]);
   return (
     <main class="viewer" aria-label="3D view">
       <div class="canvas-host" data-lost={isLost} ref={host} />

@@ -1,10 +1,11 @@
 /** How each object is drawn: its colour, whether it is hidden, and whether it is a ghost. */
 
 import { Box3, Ray, Vector3 } from "three";
-import type { Box, ObjectIndex, SceneData } from "../api/types";
+import type { ObjectIndex, SceneData } from "../api/types";
 import type { Rgb } from "../state/colors";
 import type { Store } from "../state/store";
-import { boundsOf } from "./bounds";
+import { cutAway, ghostsOf } from "./cutaway";
+import { GHOST_OPACITY } from "./look";
 import type { Appearance } from "./meshes";
 
 /** The viewer: position, and unit vector from the scene to there. */
@@ -13,7 +14,6 @@ export interface Eye {
   direction: Vector3;
 }
 
-const GHOST = 0.12;
 /** Selected objects whose view is kept free. */
 export const MAX_WATCHED = 12;
 
@@ -34,76 +34,15 @@ export function appearanceOf(
   const isGhostly = isSeeThrough.value && selected.size > 0;
   const hidden = isCutAway.value ? cutAway(store.model.data, eye.value.direction) : new Set<ObjectIndex>();
   const { data } = store.model;
-  const holders = data.limits.meshes === undefined ? new Set<ObjectIndex>() : holdersOf(data);
+  const holders = ghostsOf(data);
   return (object) => {
-    if (object < 0) return { isVisible: alone === null, color: null, opacity: isGhostly ? GHOST : 1 };
+    if (object < 0) return { isVisible: alone === null, color: null, opacity: isGhostly ? GHOST_OPACITY : 1 };
     const isHidden = (hidden.has(object) || before.has(object)) && !selected.has(object);
     const isWanted = alone === null ? !isHidden : alone.has(object);
-    // A box without meshes would hide what the object holds.
     const isGhost =
       holders.has(object) || (isGhostly && !selected.has(object)) || (filtered !== null && !filtered.has(object));
-    return { isVisible: isWanted, color: colors[object] ?? null, opacity: isGhost ? GHOST : 1 };
+    return { isVisible: isWanted, color: colors[object] ?? null, opacity: isGhost ? GHOST_OPACITY : 1 };
   };
-}
-
-const MIN_HELD = 3;
-/** Share of the volume of the scene from which a box may hold the others. */
-const MIN_HOLDER_SHARE = 0.02;
-
-const knownHolders = new WeakMap<SceneData, Set<ObjectIndex>>();
-
-function holdersOf(data: SceneData): Set<ObjectIndex> {
-  const found = knownHolders.get(data) ?? findHolders(data);
-  knownHolders.set(data, found);
-  return found;
-}
-
-/** Returns the objects that hold others: their parents, and large boxes around the middles of several others. */
-export function findHolders({ objects }: SceneData): Set<ObjectIndex> {
-  const holders = new Set(objects.parent);
-  const boxes = objects.box.map((own) => (own === null ? null : asBox3(own)));
-  const least = MIN_HOLDER_SHARE * volume(boundsOf(objects));
-  const middles = boxes.map((own) => own?.getCenter(new Vector3()) ?? null);
-  boxes.forEach((own, object) => {
-    if (own === null || volume(own) < least) return;
-    const held = middles.filter((middle, other) => middle !== null && other !== object && own.containsPoint(middle));
-    if (held.length >= MIN_HELD) holders.add(object);
-  });
-  return holders;
-}
-
-function asBox3([x0, y0, z0, x1, y1, z1]: Box): Box3 {
-  return new Box3(new Vector3(x0, y0, z0), new Vector3(x1, y1, z1));
-}
-
-function volume(box: Box3): number {
-  const { x, y, z } = box.getSize(new Vector3());
-  return x * y * z;
-}
-
-/** A wall is near if its outside faces the viewer by more than this cosine. */
-const MIN_COSINE = 0.15;
-
-/** Returns the ceilings, the walls between the viewer and the scene, and what is attached to those walls. */
-export function cutAway(data: SceneData, direction: Pick<Vector3, "x" | "y">): Set<ObjectIndex> {
-  const { shell, box, mount } = data.objects;
-  const hidden = new Set<ObjectIndex>();
-  const center = boundsOf(data.objects).getCenter(new Vector3());
-  const length = Math.hypot(direction.x, direction.y) || 1;
-  shell.forEach((kind, object) => {
-    const own = box[object];
-    if (kind === "ceiling") hidden.add(object);
-    if (kind !== "wall" || own == null) return;
-    const [x, y] = [(own[0] + own[3]) / 2 - center.x, (own[1] + own[4]) / 2 - center.y];
-    const isThinX = own[3] - own[0] < own[4] - own[1];
-    // The outside of a wall is along its thin side, away from the middle.
-    const cosine = (isThinX ? Math.sign(x) * direction.x : Math.sign(y) * direction.y) / length;
-    if (cosine > MIN_COSINE) hidden.add(object);
-  });
-  mount.forEach((wall, object) => {
-    if (wall >= 0 && shell[wall] === "wall" && hidden.has(wall)) hidden.add(object);
-  });
-  return hidden;
 }
 
 /** Returns the objects whose boxes hide the middle of one of the watched objects, or hold it: cabinets, doors, lids. */

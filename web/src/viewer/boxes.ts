@@ -12,11 +12,10 @@ import {
   Vector3,
 } from "three";
 import type { Box, ObjectIndex, Turned } from "../api/types";
-import { type Appearance, bestHit, type Hit, linear } from "./meshes";
+import { GHOST_OPACITY, linear, MIN_SIDE, NO_COLOR } from "./look";
+import { type Appearance, bestHit, type Hit } from "./meshes";
 
-const MIN_SIDE = 0.002;
 const HIDDEN = new Matrix4().makeScale(0, 0, 0);
-const GHOST = 0.12;
 
 export class BoxBatch {
   /** Two meshes: solid boxes and ghosts. */
@@ -34,12 +33,12 @@ export class BoxBatch {
   ) {
     this.objects = boxes.flatMap((box, index) => (box === null ? [] : [index]));
     this.matrices = this.objects.map((object) => boxMatrix(boxes[object] as Box, turned[object] ?? null));
-    this.natural = this.objects.map((object) => new Color(...(colors[object] ?? [0.5, 0.5, 0.5])));
+    this.natural = this.objects.map((object) => new Color(...(colors[object] ?? NO_COLOR)));
     const geometry = new BoxGeometry();
     this.solid = this.makeMesh(geometry, new MeshLambertMaterial());
     this.ghosts = this.makeMesh(
       geometry,
-      new MeshLambertMaterial({ transparent: true, opacity: GHOST, depthWrite: false }),
+      new MeshLambertMaterial({ transparent: true, opacity: GHOST_OPACITY, depthWrite: false }),
     );
     this.group.add(this.solid, this.ghosts);
   }

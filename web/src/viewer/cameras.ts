@@ -1,14 +1,15 @@
 /** Perspective and orthographic views of one scene, with smooth flights between them. */
 
-import { type Box3, MathUtils, OrthographicCamera, PerspectiveCamera, Sphere, Vector3 } from "three";
+import { OrthographicCamera, PerspectiveCamera, Vector3 } from "three";
 import { OrbitControls } from "three/addons/controls/OrbitControls.js";
+import type { Box } from "../api/types";
+import { DEPTH, distanceTo, FIELD_OF_VIEW, middleOf, radiusOf, START_DIRECTION } from "./look";
 
 export type ViewName = "perspective" | "top" | "front" | "left";
 
-const FIELD_OF_VIEW = 45;
 const FLIGHT_MS = 280;
 const DIRECTIONS: Record<ViewName, Vector3> = {
-  perspective: new Vector3(-0.62, -0.62, 0.75).normalize(),
+  perspective: new Vector3(...START_DIRECTION),
   // Not exactly from above, where the direction of "up" on the screen would be undefined.
   top: new Vector3(0, -0.0005, 1).normalize(),
   front: new Vector3(0, -1, 0),
@@ -49,20 +50,17 @@ export class Cameras {
   }
 
   /** Looks at a box from the direction of a view; keeps the current direction if `view` is null. */
-  frame(box: Box3, view: ViewName | null, isInstant = prefersReducedMotion()): void {
-    if (box.isEmpty()) return;
+  frame(box: Box, view: ViewName | null, isInstant = prefersReducedMotion()): void {
     const before = this.active;
     if (view !== null) this.view = view;
     const direction =
       view === null ? before.position.clone().sub(this.controls.target).normalize() : DIRECTIONS[view].clone();
     if (direction.lengthSq() === 0) direction.copy(DIRECTIONS.perspective);
-    const sphere = box.getBoundingSphere(new Sphere());
-    const radius = Math.max(sphere.radius, 0.05);
-    const half = MathUtils.degToRad(FIELD_OF_VIEW / 2);
-    const narrow = Math.min(half, Math.atan(Math.tan(half) * this.aspect));
-    const distance = radius / Math.sin(narrow);
-    this.perspective.near = distance / 200;
-    this.perspective.far = distance * 200;
+    const center = new Vector3(...middleOf(box));
+    const radius = radiusOf(box);
+    const distance = distanceTo(radius, this.aspect);
+    this.perspective.near = distance / DEPTH;
+    this.perspective.far = distance * DEPTH;
     this.perspective.updateProjectionMatrix();
     if (this.view !== "perspective") {
       const fill = Math.min(this.aspect, 1);
@@ -70,8 +68,8 @@ export class Cameras {
       this.setOrthographicHeight((2.1 * radius) / fill);
     }
     this.controls.object = this.active;
-    const position = sphere.center.clone().addScaledVector(direction, distance);
-    this.fly(position, sphere.center, isInstant || this.active !== before);
+    const position = center.clone().addScaledVector(direction, distance);
+    this.fly(position, center, isInstant || this.active !== before);
   }
 
   private setOrthographicHeight(height: number): void {

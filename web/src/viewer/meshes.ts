@@ -16,6 +16,7 @@ import {
 import { GLTFLoader } from "three/addons/loaders/GLTFLoader.js";
 import type { ObjectIndex, TextureUse } from "../api/types";
 import type { Rgb } from "../state/colors";
+import { linear } from "./look";
 
 /** How one object is drawn. */
 export interface Appearance {
@@ -194,10 +195,4 @@ function isTransparent(geometry: BufferGeometry): boolean {
 
 function sum(values: number[]): number {
   return values.reduce((total, value) => total + value, 0);
-}
-
-/** Returns linear RGB of sRGB. */
-export function linear(color: Rgb): [number, number, number] {
-  const decode = (value: number) => (value <= 0.04045 ? value / 12.92 : ((value + 0.055) / 1.055) ** 2.4);
-  return [decode(color[0]), decode(color[1]), decode(color[2])];
 }

@@ -3,7 +3,6 @@
 import { type Signal, signal } from "@preact/signals";
 import {
   AmbientLight,
-  Box3,
   DirectionalLight,
   HemisphereLight,
   Plane,
@@ -19,8 +18,10 @@ import type { Eye } from "./appearance";
 import { boundsOf } from "./bounds";
 import { BoxBatch } from "./boxes";
 import { Cameras, type ViewName } from "./cameras";
+import { MAX_PIXEL_RATIO } from "./firstPicture";
 import { type Ghost, GhostBoxes } from "./ghosts";
 import { boxCenter, boxEdges, LineSet } from "./lines";
+import { LIGHTS, radiusOf } from "./look";
 import { type Appearance, bestHit, MeshBatches, readParts } from "./meshes";
 import { LabelOverlay, type OverlayLabel } from "./overlay";
 
@@ -36,6 +37,8 @@ export interface ViewerEvents {
   onHover(object: ObjectIndex | null, x: number, y: number): void;
   /** The browser has taken the graphics context away, or has given it back. */
   onContext(isLost: boolean): void;
+  /** The scene is drawn for the first time. */
+  onFirstFrame(): void;
 }
 
 const HOVER_MS = 60;
@@ -65,7 +68,7 @@ export class Viewer {
   private readonly ghosts = new GhostBoxes();
   private readonly overlay: LabelOverlay;
   private readonly cut = new Plane(new Vector3(0, 0, -1), OUTSIDE);
-  private readonly light = new DirectionalLight(0xffffff, 1.6);
+  private readonly light = new DirectionalLight("#ffffff", LIGHTS.lamp.intensity);
   private readonly resizer: ResizeObserver;
   private appearance: (object: ObjectIndex) => Appearance = () => ({ isVisible: true, color: null, opacity: 1 });
   private isPlain = true;
@@ -84,7 +87,7 @@ export class Viewer {
     canvas.setAttribute("aria-label", "3D view of the scene");
     canvas.setAttribute("role", "img");
     this.renderer = new WebGLRenderer({ canvas, antialias: true, alpha: true, powerPreference: "high-performance" });
-    this.renderer.setPixelRatio(Math.min(devicePixelRatio, 2));
+    this.renderer.setPixelRatio(Math.min(devicePixelRatio, MAX_PIXEL_RATIO));
     this.renderer.clippingPlanes = [this.cut];
     host.append(canvas);
     const labels = document.createElement("div");
@@ -95,13 +98,16 @@ export class Viewer {
     this.boxes = new BoxBatch(data.objects.box, data.objects.color, data.objects.turned);
     this.scene.add(this.boxes.group, this.selection.segments, this.relations.segments, this.hidden.segments);
     this.scene.add(this.ghosts.group);
-    this.scene.add(new AmbientLight(0xffffff, 0.55), new HemisphereLight(0xffffff, 0x8d8578, 1.1), this.light);
+    const { sky, ground, intensity } = LIGHTS.hemisphere;
+    this.scene.add(new AmbientLight("#ffffff", LIGHTS.ambient), new HemisphereLight(sky, ground, intensity));
+    this.scene.add(this.light, this.light.target);
     this.resizer = new ResizeObserver(() => this.resize());
     this.resizer.observe(host);
     this.listen(canvas);
     this.watchContext(canvas);
     this.resize();
-    this.cameras.frame(this.boundsOf(null), "perspective", true);
+    const bounds = this.boundsOf(null);
+    if (bounds !== null) this.cameras.frame(bounds, "perspective", true);
     this.paint();
   }
 
@@ -155,9 +161,8 @@ export class Viewer {
   }
 
   /** Looks at a box. */
-  frameBox([x0, y0, z0, x1, y1, z1]: Box): void {
-    const bounds = new Box3(new Vector3(x0, y0, z0), new Vector3(x1, y1, z1));
-    this.cameras.frame(bounds.expandByScalar(0.25 * bounds.getSize(new Vector3()).length() + 0.15), null);
+  frameBox(box: Box): void {
+    this.cameras.frame(withSurroundings(box), null);
   }
 
   /** Shows relation lines and labels. */
@@ -183,21 +188,17 @@ export class Viewer {
   /** Looks at objects, or at everything for null. */
   frame(objects: readonly ObjectIndex[] | null, view: ViewName | null = null): void {
     const bounds = this.boundsOf(objects);
-    if (objects !== null && !bounds.isEmpty()) {
-      // Surroundings tell what a thing is.
-      bounds.expandByScalar(0.25 * bounds.getSize(new Vector3()).length() + 0.15);
-    }
-    this.cameras.frame(bounds, view);
+    if (bounds !== null) this.cameras.frame(objects === null ? bounds : withSurroundings(bounds), view);
   }
 
   /** Hides everything above a height; `share` is between 0 (floor) and 1 (nothing hidden). */
   setCut(share: number): void {
     const bounds = this.boundsOf(null);
-    this.cut.constant = share >= 1 ? OUTSIDE : bounds.min.z + share * (bounds.max.z - bounds.min.z);
+    this.cut.constant = share >= 1 || bounds === null ? OUTSIDE : bounds[2] + share * (bounds[5] - bounds[2]);
     this.invalidate();
   }
 
-  private boundsOf(objects: readonly ObjectIndex[] | null): Box3 {
+  private boundsOf(objects: readonly ObjectIndex[] | null): Box | null {
     return boundsOf(this.data.objects, objects ?? undefined);
   }
 
@@ -292,9 +293,11 @@ export class Viewer {
     if (hasMoved || direction.dot(before) < TURN_STEP)
       this.eye.value = { position: camera.position.clone(), direction };
     // The light comes from over the viewer's shoulder.
-    this.light.position.copy(camera.position).add(new Vector3(0, 0, 3));
+    this.light.position.copy(camera.position).add(new Vector3(0, 0, LIGHTS.lamp.above));
+    this.light.target.position.copy(this.cameras.controls.target);
     this.renderer.render(this.scene, camera);
     this.overlay.place(camera, this.host.clientWidth, this.host.clientHeight);
+    if (this.frameMs === 0) this.events.onFirstFrame();
     this.frameMs = performance.now() - start;
   }
 
@@ -313,4 +316,10 @@ export class Viewer {
     this.renderer.dispose();
     this.host.replaceChildren();
   }
+}
+
+/** Surroundings tell what a thing is. */
+function withSurroundings(box: Box): Box {
+  const added = 0.5 * radiusOf(box) + 0.15;
+  return box.map((value, axis) => (axis < 3 ? value - added : value + added)) as Box;
 }
