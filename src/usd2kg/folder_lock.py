@@ -55,7 +55,9 @@ def lock_shared(folder: Path, seconds: float) -> Iterator[None]:
         # Without a lock file, usd2kg has never written to the folder, which may be read-only.
         yield
         return
-    with closing(sqlite3.connect(f"{path.resolve().as_uri()}?mode=ro", uri=True, timeout=seconds)) as lock:
+    uri = f"{path.resolve().as_uri()}?mode=ro"
+    # The garbage collector may release the lock in any thread, see `release_when_unused`.
+    with closing(sqlite3.connect(uri, uri=True, timeout=seconds, check_same_thread=False)) as lock:
         lock.isolation_level = None
         _take(lock, "BEGIN", folder, seconds)
         # SQLite acquires the shared lock at the first read of a transaction.
