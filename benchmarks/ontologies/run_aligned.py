@@ -4,7 +4,8 @@ Usage: python -m benchmarks.ontologies.run_aligned
 
 `members/ONTOLOGY.json` has what a language model answered when it was asked, once per ontology and without any name of
 a list, what belongs to each class. Prints exact match and accepted answers in % with 95 % intervals (Wilson), with the
-alignment that is built and with the model's.
+alignment that is built and with the model's; `conf.` is the mean stated probability of an exact answer in %, with the
+model's.
 """
 
 import json
@@ -51,7 +52,7 @@ def align(tbox: TBox, path: Path) -> LexicalGrounder:
 def main() -> None:
     """Measure and print."""
     shares = f"{'exact':<17}  {'accepted':<17}"
-    print(f"{'list':<24}{'split':<12}{'n':>5}  {'built: ' + shares:<43}{'with the model: ' + shares}".rstrip())
+    print(f"{'list':<24}{'split':<12}{'n':>5}  {'built: ' + shares:<43}{'with the model: ' + shares}conf.")
     totals: dict[str, tuple[Tally, Tally]] = {}
     for names, tbox in iter_ontology_lists(SPLITS, public=False):
         path = MEMBERS / f"{names.ontology}.json"
@@ -60,15 +61,21 @@ def main() -> None:
             found = print_list(names, tbox, path)
             totals[names.split] = built.plus(found[0]), aligned.plus(found[1])
     for split, (built, aligned) in totals.items():
-        print(f"{'all':<24}{split:<12}{built.count:>5}  {built!s:<43}{aligned}")
+        print_row("all", split, built, aligned)
 
 
 def print_list(names: NameList, tbox: TBox, path: Path) -> tuple[Tally, Tally]:
     """Print and return the scores of one list with the alignment that is built and with the model's."""
     resolved = resolve_list(names, tbox)
     built, aligned = tally_answers(resolved, tbox), tally_answers(resolved, tbox, grounder=align(tbox, path))
-    print(f"{names.name:<24}{names.split:<12}{built.count:>5}  {built!s:<43}{aligned}", flush=True)
+    print_row(names.name, names.split, built, aligned)
     return built, aligned
+
+
+def print_row(name: str, split: str, built: Tally, aligned: Tally) -> None:
+    """Print the scores of one list, or of all."""
+    confidence = 100 * aligned.confidence / aligned.count
+    print(f"{name:<24}{split:<12}{built.count:>5}  {built!s:<43}{aligned!s:<43}{confidence:5.0f}", flush=True)
 
 
 if __name__ == "__main__":

@@ -8,7 +8,7 @@ from functools import reduce
 import pytest
 
 from usd2kg.grounding.lexical.reading.beam_search import ROOT, Arc, Beam, Piece, log_sum
-from usd2kg.grounding.lexical.settings import CHANNEL
+from usd2kg.grounding.lexical.reading.shortening_settings import CHANNEL
 
 SECONDS = {"tea": {"pot": math.log(15), "cup": math.log(3)}, "door": {"bell": math.log(40)}}
 MOST = math.log(40)

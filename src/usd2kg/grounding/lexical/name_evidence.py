@@ -10,6 +10,7 @@ from usd2kg.grounding.lexical.concepts.taxonomy import Taxonomy
 from usd2kg.grounding.lexical.evidence_combination import ScoredClass
 from usd2kg.grounding.lexical.matching.head_matching import Match
 from usd2kg.grounding.lexical.matching.phrase_matching import PhraseMatcher
+from usd2kg.grounding.lexical.matching.similar_members import SimilarMembers
 from usd2kg.grounding.lexical.reading.abbreviations import AbbreviationReader, Reading
 from usd2kg.grounding.lexical.reading.english_words import SHORTEST_WORD, is_english_word
 from usd2kg.grounding.lexical.reading.evidence_texts import texts_of
@@ -43,11 +44,19 @@ _SOURCES = {
 class NameEvidence:
     """Scores classes by words, for one TBox."""
 
-    def __init__(self, lexicon: Lexicon, taxonomy: Taxonomy, reader: NameReader, matcher: PhraseMatcher) -> None:
+    def __init__(
+        self,
+        lexicon: Lexicon,
+        taxonomy: Taxonomy,
+        reader: NameReader,
+        matcher: PhraseMatcher,
+        similar: SimilarMembers | None = None,
+    ) -> None:
         self._lexicon = lexicon
         self._taxonomy = taxonomy
         self._reader = reader
         self._matcher = matcher
+        self._similar = similar
         self.match = lru_cache(maxsize=8192)(self._match)
         """(text, names above, extents in metres or None) → matches of the text, best first."""
 
@@ -150,7 +159,9 @@ class NameEvidence:
         return self._reader.kinds.is_known(word) or is_english_word(word)
 
     def _match(self, text: str, parents: tuple[str, ...], size: Size | None = None) -> tuple[Match, ...]:
-        return tuple(self._matcher.match(self._reader.read(text, parents), parents, size))
+        phrase = self._reader.read(text, parents)
+        matches = self._matcher.match(phrase, parents, size)
+        return tuple(matches) if self._similar is None else self._similar.rank(phrase, matches)
 
 
 def _explain_match(match: Match, group: str) -> str:

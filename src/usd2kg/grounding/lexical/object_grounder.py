@@ -12,10 +12,12 @@ from usd2kg.grounding.lexical.alignment.artificial_root import NO_CLASS, NO_CLAS
 from usd2kg.grounding.lexical.alignment.built_alignment import BuiltAlignment, build_alignment
 from usd2kg.grounding.lexical.alignment.lexicon import Lexicon
 from usd2kg.grounding.lexical.alignment.lexicon_json import lexicon_as_json, lexicon_of_json
+from usd2kg.grounding.lexical.alignment.terms import TermKind
 from usd2kg.grounding.lexical.concepts.taxonomy import Taxonomy, load_taxonomy
 from usd2kg.grounding.lexical.context_evidence import ContextEvidence
 from usd2kg.grounding.lexical.evidence_combination import CONTEXT_GROUPS, ScoredClass, combine_evidence
 from usd2kg.grounding.lexical.matching.phrase_matching import PhraseMatcher
+from usd2kg.grounding.lexical.matching.similar_members import SimilarMembers
 from usd2kg.grounding.lexical.matching.term_matching import TermMatcher
 from usd2kg.grounding.lexical.name_evidence import NameEvidence
 from usd2kg.grounding.lexical.reading.evidence_texts import is_generated_name
@@ -70,8 +72,15 @@ class ObjectGrounder:
         terms = TermMatcher(self._tbox, self._lexicon, taxonomy, reader)
         matcher = PhraseMatcher(terms, taxonomy, reader)
         self._is_fallback = terms.is_fallback
-        self._words = NameEvidence(self._lexicon, taxonomy, reader, matcher)
+        self._words = NameEvidence(self._lexicon, taxonomy, reader, matcher, self._similar_members())
         self._context = ContextEvidence(self._tbox, self._words, reader, matcher, tables)
+
+    def _similar_members(self) -> SimilarMembers | None:
+        """Return the search for similar terms; None without a language model's lists, since labels alone add nothing."""
+        terms = [term for term in self._lexicon.terms.values() if term.class_iri in self._tbox.by_iri]
+        if all(term.kind is not TermKind.MODEL for term in terms):
+            return None
+        return SimilarMembers(terms, self._taxonomy, self._tbox)
 
     def format_alignment(self, others: Iterable[AlignmentRow] = ()) -> str:
         """Return the alignment of the classes with concepts and terms, and other rows, as SSSOM/TSV."""

@@ -11,7 +11,6 @@ __all__ = [
     "ABBREVIATED_NAME",
     "ABSTENTION",
     "ALIGNMENT",
-    "CHANNEL",
     "CLASSIFIER",
     "COMBINATION",
     "CONCEPT",
@@ -28,7 +27,7 @@ __all__ = [
     "READING",
     "ROUTES",
     "SENSE",
-    "SHORTENING",
+    "SIMILARITY",
     "SIZE",
     "SPELLING",
     "STANCE",
@@ -38,7 +37,6 @@ __all__ = [
     "AbbreviatedNameSettings",
     "AbstentionSettings",
     "AlignmentSettings",
-    "ChannelSettings",
     "ClassifierSettings",
     "CombinationSettings",
     "ConceptSettings",
@@ -55,7 +53,7 @@ __all__ = [
     "ReadingSettings",
     "RouteSettings",
     "SenseSettings",
-    "ShorteningSettings",
+    "SimilaritySettings",
     "SizeSettings",
     "SpellingSettings",
     "StanceSettings",
@@ -202,6 +200,17 @@ class MatchingSettings:
     place_factor: float
     share_power: float
     classifier_weight: float
+
+
+@dataclass(frozen=True, slots=True)
+class SimilaritySettings:
+    """Similarity of whole names to the nouns that a language model named."""
+
+    weight: float
+    max_terms: int
+    min_cosine: float
+    letters: int
+    letters_value: float
 
 
 @dataclass(frozen=True, slots=True)
@@ -375,50 +384,6 @@ class FrequencySettings:
     last_pseudo_count: float
 
 
-@dataclass(frozen=True, slots=True)
-class ChannelSettings:
-    """Noisy channel of abbreviations."""
-
-    bigram_share: float
-    tbox_share: float
-    stage_share: float
-    parent_share: float
-    adjective_factor: float
-    min_log_prior: float
-    common_abbreviation: float
-    stray_letter: float
-    unknown_word: float
-    unknown_letter: float
-    max_unknown_letters: int
-    pipeline_prefix: float
-    bigram_trust: float
-    compound_factor: float
-    max_bigram_factor: float
-    max_choices: int
-    max_piece_letters: int
-    next_word: float
-    beam_width: int
-    max_log_loss: float
-    max_pieces: int
-    consistent_share: float
-    max_gap_letters: int
-    gap_letter: float
-    common_form: float
-
-
-@dataclass(frozen=True, slots=True)
-class ShorteningSettings:
-    """Ways of shortening words."""
-
-    full_share: float
-    skeleton_share: float
-    skeleton_with_first_vowel_share: float
-    truncated_share: float
-    length_shares: tuple[float, ...]
-    max_letters: int
-    max_letters_with_vowels: int
-
-
 EVIDENCE = read_settings("lexical", "evidence", EvidenceSettings)
 ABBREVIATED_NAME = read_settings("lexical", "abbreviated_name", AbbreviatedNameSettings)
 CONCEPT = read_settings("lexical", "concept", ConceptSettings)
@@ -431,6 +396,7 @@ TERMS = read_settings("lexical", "terms", TermSettings)
 ALIGNMENT = read_settings("lexical", "alignment", AlignmentSettings)
 ROUTES = read_settings("lexical", "routes", RouteSettings)
 MATCHING = read_settings("lexical", "matching", MatchingSettings)
+SIMILARITY = read_settings("lexical", "similar_members", SimilaritySettings)
 HEAD_NOUN = read_settings("lexical", "head_noun", HeadNounSettings)
 CLASSIFIER = read_settings("lexical", "classifier", ClassifierSettings)
 DOMAIN_FREQUENCY = read_settings("lexical", "domain_frequency", DomainFrequency)
@@ -444,5 +410,3 @@ CONVENTION = read_settings("lexical", "convention", ConventionSettings)
 SPELLING = read_settings("lexical", "spelling", SpellingSettings)
 MODIFIER = read_settings("lexical", "modifier", ModifierSettings)
 FREQUENCY = read_settings("lexical", "frequency", FrequencySettings)
-CHANNEL = read_settings("lexical", "channel", ChannelSettings)
-SHORTENING = read_settings("lexical", "shortening", ShorteningSettings)

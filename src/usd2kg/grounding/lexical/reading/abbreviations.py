@@ -18,9 +18,9 @@ from usd2kg.grounding.lexical.concepts.taxonomy import Taxonomy
 from usd2kg.grounding.lexical.reading.beam_search import ROOT, Arc, Beam, Piece, log_sum
 from usd2kg.grounding.lexical.reading.name_bigrams import load_name_bigrams
 from usd2kg.grounding.lexical.reading.shortening import Expansion, FormIndex, find_range, forms_of, usual_abbreviations
+from usd2kg.grounding.lexical.reading.shortening_settings import CHANNEL
 from usd2kg.grounding.lexical.reading.shortening_style import log_consistency
 from usd2kg.grounding.lexical.reading.word_frequencies import log_prior
-from usd2kg.grounding.lexical.settings import CHANNEL
 from usd2kg.knowledge import word_set
 from usd2kg.words import words_of
 

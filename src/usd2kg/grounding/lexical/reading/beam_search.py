@@ -12,7 +12,7 @@ from itertools import chain, pairwise
 from operator import itemgetter
 from typing import NamedTuple
 
-from usd2kg.grounding.lexical.settings import CHANNEL
+from usd2kg.grounding.lexical.reading.shortening_settings import CHANNEL
 
 __all__ = ["ROOT", "Arc", "Beam", "Path", "Piece", "Starts", "log_sum"]
 

@@ -6,7 +6,7 @@ from collections.abc import Iterator, Mapping
 from functools import lru_cache
 from typing import NamedTuple
 
-from usd2kg.grounding.lexical.settings import SHORTENING
+from usd2kg.grounding.lexical.reading.shortening_settings import SHORTENING
 from usd2kg.knowledge import read_rows
 
 __all__ = [

@@ -11,7 +11,7 @@ from functools import lru_cache
 from typing import NamedTuple
 
 from usd2kg.grounding.lexical.reading.shortening import log_probability, usual_abbreviations, ways_of
-from usd2kg.grounding.lexical.settings import CHANNEL
+from usd2kg.grounding.lexical.reading.shortening_settings import CHANNEL
 
 __all__ = ["log_consistency"]
 
