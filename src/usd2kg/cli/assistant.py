@@ -8,6 +8,7 @@ from typer import Argument, Option
 
 from usd2kg.cli.options.common import JsonOutput
 from usd2kg.cli.options.model import CompletionCacheFile, ModelName
+from usd2kg.cli.options.queries import QueryTimeLimit
 from usd2kg.cli.options.stores import GraphSource, SceneName
 from usd2kg.cli.output import emit, notify, print_json
 from usd2kg.cli.query import answer_text
@@ -105,18 +106,19 @@ def mcp_command(
         Path | None, Option("--stage", help="Stage of the graph, to render pictures of objects; default: no pictures.")
     ] = None,
     scene: SceneName = None,
+    time_limit: QueryTimeLimit = 10.0,
 ) -> None:
     """Serve a graph to an AI assistant as tools of the Model Context Protocol, on stdin and stdout."""
     try:
         from usd2kg.assistant.server import make_server  # noqa: PLC0415
     except ModuleNotFoundError as error:
         raise Usd2kgError("mcp: the MCP SDK is not installed; run: pip install 'usd2kg[mcp]'") from error
-    from usd2kg.endpoint import BoundedQueries  # noqa: PLC0415
+    from usd2kg.endpoint import BoundedQueries, EndpointLimits  # noqa: PLC0415
     from usd2kg.stores import open_graph  # noqa: PLC0415
 
     store = open_graph(graph, scene)
     picture = None if stage is None else _object_renderer(store, stage)
-    with BoundedQueries(store) as run:
+    with BoundedQueries(store, EndpointLimits(time_limit, workers=1)) as run:
         make_server(store, run=run, picture=picture).run("stdio")
 
 

@@ -7,6 +7,7 @@ from typer import Argument, Option
 
 from usd2kg.cli.options.address import AddressOptions, Port
 from usd2kg.cli.options.bundles import expand_bundles
+from usd2kg.cli.options.queries import QueryTimeLimit
 from usd2kg.cli.output import notify
 
 __all__ = ["serve_command"]
@@ -19,9 +20,7 @@ def serve_command(
     ],
     where: AddressOptions,
     port: Port = 7878,
-    time_limit: Annotated[
-        float, Option("--time-limit", min=0.1, help="Seconds after which a query is cancelled.")
-    ] = 10.0,
+    time_limit: QueryTimeLimit = 10.0,
     max_rows: Annotated[
         int, Option("--max-rows", min=1, help="Rows or triples of an answer; more are cut off.")
     ] = 10_000,
