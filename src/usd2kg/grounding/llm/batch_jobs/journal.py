@@ -1,7 +1,7 @@
 """JobJournal: the batch jobs that were submitted, in the file of the cache, so that no answer is lost or paid twice.
 
 A job is recorded with its requests before it is submitted, and its id when the service has named it. If the process is
-killed between the two, the job has no id; `submit_job.settle` then looks for it at the service. The answers of a job
+killed between the two, the job has no id; `BatchDesk.submit` then looks for it at the service. The answers of a job
 are stored, and the job is closed, in one transaction.
 """
 
