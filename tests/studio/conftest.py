@@ -145,10 +145,15 @@ class Studio(Client):
 
 @contextmanager
 def running_studio(
-    stage: Path, folder: Path, *, compared: Path | None = None, second: Path | None = None
+    stage: Path,
+    folder: Path,
+    *,
+    compared: Path | None = None,
+    mapping: Path | None = None,
+    second: Path | None = None,
 ) -> Iterator[Client]:
     """A studio in this process, which starts at once since the grounder is loaded."""
-    sources = ProjectSources(stage, second_mapping=second)
+    sources = ProjectSources(stage, mapping=mapping, second_mapping=second)
     with open_project(folder, sources) as project, open_socket(Address()) as socket:
         socket.listen()
         session = open_session(project)

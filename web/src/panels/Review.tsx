@@ -3,9 +3,11 @@
 import type { Signal } from "@preact/signals";
 import type { QueueGroup, QueueOrder } from "../api/types";
 import { auditText, isAuditing, showOrder, toggleAudit } from "../state/audit";
+import { STATE_LABELS } from "../state/colors";
 import { openConcept } from "../state/concepts";
 import { classLabel, conceptLabel } from "../state/model";
 import { openProposal } from "../state/proposals";
+import { reasonsForNoClass } from "../state/review";
 import type { Store } from "../state/store";
 import { Choice } from "./Choice";
 import { Thumbnail } from "./Thumbnail";
@@ -83,7 +85,7 @@ function QueueList({ store }: { store: Store }) {
               {group.objects.length > 1 && <span class="count">{group.objects.length}</span>}
             </span>
             <span class="class-name">
-              {classLabel(store.model, group.suggested)}
+              {suggestionLabel(store, group)}
               {group.is_disputed && ` ≠ ${classLabel(store.model, group.second)}`}
             </span>
             <span class="confidence">{group.confidence === null ? "" : group.confidence.toFixed(2)}</span>
@@ -94,6 +96,13 @@ function QueueList({ store }: { store: Store }) {
   );
 }
 
+/** Returns the suggested class of a group; without one also the reason: the call failed, say. */
+function suggestionLabel(store: Store, group: QueueGroup): string {
+  const label = classLabel(store.model, group.suggested);
+  const reasons = group.suggested < 0 ? reasonsForNoClass(store.states.value, group.objects) : [];
+  return [label, ...reasons.map((reason) => STATE_LABELS[reason].toLowerCase())].join(", ");
+}
+
 /** More pictures at once make each step slow. */
 const MEMBERS_SHOWN = 48;
 
@@ -102,7 +111,7 @@ function GroupCard({ store, group }: { store: Store; group: QueueGroup }) {
   const count = store.ticked.value.length;
   const first = MEMBERS_SHOWN * Math.floor(member.value / MEMBERS_SHOWN);
   const last = Math.min(first + MEMBERS_SHOWN, group.objects.length);
-  const label = group.suggested < 0 ? "no class" : classLabel(model, group.suggested);
+  const label = suggestionLabel(store, group);
   return (
     <div class={store.isGroupInFocus.value ? "group-card" : "group-card out-of-focus"}>
       <header>

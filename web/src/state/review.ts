@@ -4,10 +4,17 @@ import type { ClassIndex, DecisionAction, ObjectIndex, ObjectState, ReviewState 
 import type { SceneModel } from "./model";
 
 const SETTLED: ReadonlySet<ReviewState> = new Set(["confirmed", "corrected", "no-class"]);
+const NO_CLASS_REASONS: readonly ReviewState[] = ["refused", "unreadable", "failed"];
 
 /** Returns whether a person still has to decide. */
 export function isOpen(state: ReviewState): boolean {
   return !SETTLED.has(state);
+}
+
+/** Returns why a grounder named no class for some objects, each reason once. */
+export function reasonsForNoClass(states: readonly ObjectState[], objects: readonly ObjectIndex[]): ReviewState[] {
+  const found = new Set(objects.map((object) => states[object]?.state));
+  return NO_CLASS_REASONS.filter((reason) => found.has(reason));
 }
 
 /** Returns all states with some replaced. */

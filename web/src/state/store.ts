@@ -268,6 +268,10 @@ export class Store {
     details: DecisionDetails = {},
   ): Promise<void> {
     if (objects.length === 0 || this.hasJustMoved()) return;
+    if (action === "confirm" && objects.some((object) => (this.states.value[object]?.suggested ?? -1) < 0)) {
+      this.notify("There is no suggestion to confirm. Choose a class with /");
+      return;
+    }
     const forget = this.table.expect(predictStates(this.states.value, objects, action, chosen));
     const { seen, group } = { seen: this.version.value, group: this.group.value };
     const isAudit = isAuditOf(this, objects, action, details);
