@@ -11,8 +11,9 @@ import pytest
 
 import usd2kg
 
-MODULES = ["usd2kg", *(found.name for found in pkgutil.walk_packages(usd2kg.__path__, "usd2kg."))]
-PACKAGES = [name for name in MODULES if hasattr(importlib.import_module(name), "__path__")]
+FOUND = list(pkgutil.walk_packages(usd2kg.__path__, "usd2kg."))
+MODULES = ["usd2kg", *(found.name for found in FOUND)]
+PACKAGES = ["usd2kg", *(found.name for found in FOUND if found.ispkg)]
 
 
 def as_sorted(names: list[str]) -> list[str]:
