@@ -65,6 +65,21 @@ def test_a_journal_is_read_back_as_it_was(tmp_path: Path, home_tbox: TBox):
     again.close()
 
 
+@pytest.mark.parametrize(
+    ("text", "cell"),
+    [("=1+1", "'=1+1"), ("'=1+1", "''=1+1"), ("red\x1b[2J cup", "red\N{REPLACEMENT CHARACTER}[2J cup")],
+)
+def test_a_text_is_no_formula_or_escape_sequence(tmp_path: Path, home_tbox: TBox, text: str, cell: str):
+    journal, review = open_journal(tmp_path, home_tbox)
+    decide(journal, review, ["/A"], Verdict(VerdictKind.UNSURE, comment=text), reviewer=text)
+    journal.close()
+    assert journal.path.read_text("utf-8").splitlines()[-1].split("\t").count(cell) == 3, "comment, reviewer and actor"
+    again, found = open_journal(tmp_path, home_tbox)
+    shown = text.replace("\x1b", "\N{REPLACEMENT CHARACTER}")
+    assert (found.verdict("/A").comment, found.verdict("/A").reviewer) == (shown, shown)
+    again.close()
+
+
 def test_decisions_of_a_journal_are_those_that_are_valid(tmp_path: Path, home_tbox: TBox):
     journal, review = open_journal(tmp_path, home_tbox)
     decide(journal, review, ["/A", "/B", "/C", "/D"], cup(home_tbox))

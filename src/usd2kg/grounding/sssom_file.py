@@ -11,7 +11,7 @@ from typing import NamedTuple
 from usd2kg.errors import GroundingError
 from usd2kg.spreadsheet import guard_formula, unguard_formula
 
-__all__ = ["Curies", "SssomFile", "SssomRow", "format_sssom_file", "one_line", "read_sssom_file"]
+__all__ = ["Curies", "SssomFile", "SssomRow", "cell_text", "format_sssom_file", "read_sssom_file"]
 
 _BUILT_IN = {
     "owl": "http://www.w3.org/2002/07/owl#",
@@ -149,13 +149,13 @@ def _read_rows(
         raise GroundingError(f"{path}: line {start + rows.line_num} is not TSV ({error}); {expected}") from error
 
 
-def one_line(text: str) -> str:
+def cell_text(text: str) -> str:
     r"""Return text for a cell: on one line, since many TSV readers do not unescape line breaks and tabs.
 
     Names on a stage are untrusted: control characters, which a terminal would obey, become U+FFFD, and an apostrophe
     precedes what a spreadsheet would evaluate. `read_sssom_file` removes it.
 
-    >>> one_line("a\tb\x1b[2J"), one_line("=1+1")
+    >>> cell_text("a\tb\x1b[2J"), cell_text("=1+1")
     ('a b\ufffd[2J', "'=1+1")
     """
     return guard_formula(_printable_line(text))

@@ -14,12 +14,12 @@ from dataclasses import replace
 from pathlib import Path
 
 from usd2kg.append_only import AppendOnlyFile, whole_lines
-from usd2kg.errors import GroundingError, OutputError, one_line
+from usd2kg.errors import GroundingError, OutputError
 from usd2kg.graph.document_prefixes import document_prefixes
 from usd2kg.graph.iris import individual_iri
 from usd2kg.graph.vocabulary import named_node
 from usd2kg.grounding.sssom_decisions import NO_TERM, VERDICT
-from usd2kg.grounding.sssom_file import Curies, SssomFile, format_sssom_file, read_sssom_file
+from usd2kg.grounding.sssom_file import Curies, SssomFile, cell_text, format_sssom_file, read_sssom_file
 from usd2kg.ontology import TBox
 from usd2kg.studio.verdicts import Action, Event, Suggestion, Verdict, VerdictChange, VerdictKind
 
@@ -123,24 +123,24 @@ class Journal:
             "subject_id": self._shorten(individual_iri(self._base, change.prim_path)),
             "predicate_id": "rdf:type",
             "object_id": self._shorten(verdict.class_iri or NO_TERM),
-            "object_label": one_line(known.label) if known is not None else "",
+            "object_label": cell_text(known.label) if known is not None else "",
             "mapping_justification": _CURATED if is_settled else _REVIEWED,
             "reviewer_id": self._shorten(reviewer) if has_id else "",
-            "reviewer_label": "" if has_id else one_line(reviewer).replace("|", r"\|"),
+            "reviewer_label": "" if has_id else cell_text(reviewer).replace("|", r"\|"),
             "review_date": (verdict.time or event.time)[:10],
-            "comment": one_line(verdict.comment),
+            "comment": cell_text(verdict.comment),
             "prim_path": change.prim_path,
             VERDICT: verdict.kind.value,
             "decided_at": verdict.time,
             "before": before.class_iri or before.kind.value,
             "event": str(event.number),
             "action": event.action.value,
-            "actor": one_line(event.reviewer),
+            "actor": cell_text(event.reviewer),
             "time": event.time,
             "seen": str(event.seen),
             "reverts": str(event.reverts or ""),
             "concept": self._shorten(event.concept) if event.concept else "",
-            "proposal": one_line(verdict.proposal),
+            "proposal": cell_text(verdict.proposal),
             "audit": "true" if event.is_audit else "",
             **self._suggested(change.suggested),
         }

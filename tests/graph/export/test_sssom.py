@@ -18,7 +18,7 @@ from usd2kg.graph import format_sssom
 from usd2kg.graph.iris import individual_iri
 from usd2kg.grounding import Candidate, Concept, Decision, Grounding, Prediction, Status, read_decisions
 from usd2kg.grounding.decisions import make_decision
-from usd2kg.grounding.sssom_file import one_line, read_sssom_file
+from usd2kg.grounding.sssom_file import cell_text, read_sssom_file
 
 TBOX = make_tbox(make_class("Thing"), make_class("Cup", "Thing", label="cup"))
 BASE = "https://my.lab/k/"
@@ -129,8 +129,8 @@ def test_any_text_survives(path: str, label: str, comment: str):
     start = text.index("subject_id\t")
     (row,) = csv.DictReader(io.StringIO(text[start:], newline=""), delimiter="\t")
     assert row["prim_path"] == f"/{path}"
-    assert row["subject_label"] == one_line(label)
-    assert row["comment"] == one_line(comment)
+    assert row["subject_label"] == cell_text(label)
+    assert row["comment"] == cell_text(comment)
     assert row["subject_id"].removeprefix("scene:") == individual_iri("", f"/{path}")
 
 

@@ -15,7 +15,7 @@ from usd2kg.graph.iris import check_base, default_base, individual_iri
 from usd2kg.graph.justification import matching_process
 from usd2kg.graph.vocabulary import PREFIXES, SSSOM, named_node
 from usd2kg.grounding import Grounding, Prediction, Status
-from usd2kg.grounding.sssom_file import Curies, format_sssom_file, one_line
+from usd2kg.grounding.sssom_file import Curies, cell_text, format_sssom_file
 from usd2kg.ontology import TBox
 
 __all__ = ["UNSPECIFIED_LICENSE", "format_sssom"]
@@ -129,19 +129,19 @@ def _row(p: Prediction, tbox: TBox, names: Mapping[str, str], base: str, curies:
     others = [candidate.class_iri for candidate in p.candidates if candidate.class_iri != p.class_iri]
     return {
         "subject_id": curies.shorten(individual_iri(base, p.prim_path)),
-        "subject_label": one_line(names.get(p.prim_path) or p.prim_path.rpartition("/")[2]),
+        "subject_label": cell_text(names.get(p.prim_path) or p.prim_path.rpartition("/")[2]),
         "predicate_id": curies.shorten(f"{PREFIXES['rdf']}type"),
         "object_id": curies.shorten(p.class_iri or f"{SSSOM.iri}NoTermFound"),
-        "object_label": one_line(tbox.by_iri[p.class_iri].label) if p.class_iri else "",
+        "object_label": cell_text(tbox.by_iri[p.class_iri].label) if p.class_iri else "",
         "mapping_justification": curies.shorten(matching_process(p).value),
         "reviewer_id": curies.shorten(review.reviewer) if review is not None and has_id else "",
         "reviewer_label": _item(review.reviewer) if review is not None and not has_id else "",
         "review_date": day if re.fullmatch(r"\d{4}-\d{2}-\d{2}", day, flags=re.ASCII) else "",
         "confidence": "" if p.confidence is None else f"{p.confidence:.4f}",
-        "comment": one_line("; ".join(filter(None, (p.explanation, review.comment if review is not None else "")))),
+        "comment": cell_text("; ".join(filter(None, (p.explanation, review.comment if review is not None else "")))),
         "prim_path": p.prim_path,
         "status": p.status.value,
-        "grounder": one_line(p.grounder),
+        "grounder": cell_text(p.grounder),
         "alternatives": "|".join(curies.shorten(iri) for iri in others),
     }
 
@@ -152,11 +152,11 @@ def _concept_cells(p: Prediction, grounding: Grounding, curies: Curies) -> dict[
         return {}
     return {
         "concept": curies.shorten(concept.iri),
-        "concept_label": one_line(concept.label),
+        "concept_label": cell_text(concept.label),
         "concept_confidence": f"{p.concept_confidence or 0.0:.4f}",
     }
 
 
 def _item(text: str) -> str:
     """Return text escaped as an item of a |-separated list."""
-    return one_line(text).replace("|", r"\|")
+    return cell_text(text).replace("|", r"\|")

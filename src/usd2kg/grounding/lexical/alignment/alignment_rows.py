@@ -11,7 +11,7 @@ from pathlib import Path
 from usd2kg.errors import GroundingError, OntologyError
 from usd2kg.grounding.lexical.alignment.artificial_root import NO_CLASS, NO_CLASS_IRI
 from usd2kg.grounding.lexical.alignment.terms import TermKind
-from usd2kg.grounding.sssom_file import Curies, SssomFile, SssomRow, format_sssom_file, one_line, read_sssom_file
+from usd2kg.grounding.sssom_file import Curies, SssomFile, SssomRow, cell_text, format_sssom_file, read_sssom_file
 from usd2kg.ontology import ClassIRI, TBox
 from usd2kg.ontology.namespaces import CONCEPT, SKOS, U2K, WORDNET
 from usd2kg.ontology.prefixes import PREFIXES
@@ -136,17 +136,17 @@ def _cells_of(row: AlignmentRow, tbox: TBox, curies: Curies) -> dict[str, str]:
     predicate = "skos:exactMatch" if is_exact else "skos:broadMatch" if row.is_kind else row.kind.value
     return {
         "subject_id": "" if is_term else curies.shorten(row.subject),
-        "subject_label": one_line(row.subject if is_term else row.label),
+        "subject_label": cell_text(row.subject if is_term else row.label),
         "subject_type": _LITERAL if is_term else "skos concept",
         "predicate_id": predicate,
         "predicate_modifier": "Not" if row.is_negated else "",
         "object_id": curies.shorten(written_class(row.class_iri)),
         "object_label": _class_label(row.class_iri, tbox),
         "mapping_justification": _justification(row),
-        "mapping_tool": one_line(row.tool),
-        "reviewer_label": "|".join(one_line(name).replace("|", r"\|") for name in row.reviewers),
+        "mapping_tool": cell_text(row.tool),
+        "reviewer_label": "|".join(cell_text(name).replace("|", r"\|") for name in row.reviewers),
         "confidence": f"{row.confidence:g}",
-        "comment": one_line(row.reason),
+        "comment": cell_text(row.reason),
         "term_kind": row.term_kind.value if is_term else "",
         "category_size": str(row.category_size) if row.category_size else "",
     }
@@ -160,7 +160,7 @@ def _justification(row: AlignmentRow) -> str:
 
 
 def _class_label(iri: ClassIRI, tbox: TBox) -> str:
-    return NO_CLASS if iri == NO_CLASS_IRI else one_line(tbox.by_iri[iri].label)
+    return NO_CLASS if iri == NO_CLASS_IRI else cell_text(tbox.by_iri[iri].label)
 
 
 def parse_rows(path: Path, text: str, tbox: TBox) -> tuple[ClassIRI | None, str, list[AlignmentRow]]:
@@ -242,7 +242,7 @@ def _is_curated(cells: Mapping[str, str], class_iri: ClassIRI, file: SssomFile, 
     label = cells.get("object_label", "")
     # In another version of the ontology, the class may have another label.
     is_comparable = label and _ontology_hash(file) == tbox.content_hash
-    is_changed = is_comparable and one_line(label) != _class_label(class_iri, tbox)
+    is_changed = is_comparable and cell_text(label) != _class_label(class_iri, tbox)
     return bool(is_changed or cells.get("reviewer_label") or cells.get("reviewer_id"))
 
 
