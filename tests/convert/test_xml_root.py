@@ -1,10 +1,10 @@
-"""An XML file is taken for MJCF by its root element."""
+"""The format of an XML file follows from its root element."""
 
 from pathlib import Path
 
 import pytest
 
-from usd2kg.convert import find_format, is_stage
+from usd2kg.convert import SourceFormat, find_format, formats, is_stage
 from usd2kg.convert.write import convert_file
 from usd2kg.convert.xml_root import read_root_tag
 from usd2kg.errors import SceneError
@@ -74,8 +74,17 @@ def test_mjcf_is_a_stage_and_other_xml_is_not(tmp_path: Path):
 )
 def test_other_xml_is_refused(tmp_path: Path, text: str, found: str):
     path = write(tmp_path / "note.xml", text)
-    message = f"has {found}, expected an MJCF file, whose root element is <mujoco>; name the file of the whole model"
+    message = rf"has {found}, expected <mujoco> \(MJCF\); name the file of the whole model"
     with pytest.raises(SceneError, match=message):
         read_scene(path)
     with pytest.raises(SceneError, match=message):
         convert_file(path, tmp_path / "note.usdc")
+
+
+def test_formats_share_an_ending(tmp_path: Path, monkeypatch: pytest.MonkeyPatch):
+    building = SourceFormat("gbXML", (".xml",), "gbxml", "pip install gbxml", "gbXML")
+    monkeypatch.setattr(formats, "FORMATS", (*formats.FORMATS, building))
+    assert find_format(write(tmp_path / "house.xml", "<gbXML/>")) == building
+    assert find_format(write(tmp_path / "arm.xml", "<mujoco/>")).name == "MJCF"
+    with pytest.raises(SceneError, match=r"expected <mujoco> \(MJCF\) or <gbXML> \(gbXML\)"):
+        convert_file(write(tmp_path / "note.xml", "<note/>"), tmp_path / "note.usdc")

@@ -68,12 +68,16 @@ def find_format(path: Path) -> SourceFormat | None:
     """
     if path.is_dir():
         return OBJ_FOLDER if holds_obj_files(path) else None
-    ending = path.suffix.lower()
-    found = next((entry for entry in FORMATS if ending in entry.endings), None)
-    # That a file is missing is said where it is read.
-    if found is not None and found.root_tag and path.is_file():
-        return found if read_root_tag(path) == found.root_tag else None
-    return found
+    found = _formats_of(path.suffix)
+    # A missing file is reported where it is read.
+    if any(entry.root_tag for entry in found) and path.is_file():
+        tag = read_root_tag(path)
+        found = [entry for entry in found if entry.root_tag in {"", tag}]
+    return found[0] if found else None
+
+
+def _formats_of(ending: str) -> list[SourceFormat]:
+    return [entry for entry in FORMATS if ending.lower() in entry.endings]
 
 
 def refuse_other_xml(path: Path) -> None:
@@ -82,12 +86,11 @@ def refuse_other_xml(path: Path) -> None:
     Raises:
         SceneError: the ending is that of a format whose files have another root element.
     """
-    found = next((entry for entry in FORMATS if entry.root_tag and path.suffix.lower() in entry.endings), None)
-    if found is not None:
+    expected = [f"<{entry.root_tag}> ({entry.name})" for entry in _formats_of(path.suffix) if entry.root_tag]
+    if expected:
         tag = read_root_tag(path)
         root = "no root element" if tag is None else f"the root element <{tag}>"
-        expected = f"expected an {found.name} file, whose root element is <{found.root_tag}>"
-        raise SceneError(f"{path}: has {root}, {expected}; name the file of the whole model")
+        raise SceneError(f"{path}: has {root}, expected {' or '.join(expected)}; name the file of the whole model")
 
 
 def is_stage(path: Path) -> bool:
