@@ -152,7 +152,7 @@ def test_carries_decisions_over_to_renamed_objects(run: Run, room: Path, edited:
     assert same.code == 0
     done = run("ground", edited, "--decisions", "decisions.csv", "--previous", room)
     (row,) = (line for line in done.out.splitlines() if line.startswith("/Room/teaMug,"))
-    assert row.endswith(",bowl,1.0000,reviewed,person,,,")
+    assert row.endswith(",bowl,1.0000,reviewed,lexical,,,")
 
 
 @pytest.mark.parametrize(

@@ -27,7 +27,7 @@ class TestGround:
             "\n".join([*lines[: start + 1], *("\t".join(row.values()) for row in rows)]) + "\n", encoding="utf-8"
         )
         second = run("ground", room, "--decisions", path)
-        assert "/Room/coffee_mug,http://www.ease-crc.org/ont/SOMA.owl#Bowl,bowl,1.0000,reviewed,person" in second.out
+        assert "/Room/coffee_mug,http://www.ease-crc.org/ont/SOMA.owl#Bowl,bowl,1.0000,reviewed,lexical" in second.out
         assert second.out.count(",reviewed,") == 1
 
     def test_file_ending_selects_the_format(self, run: Run, room: Path):

@@ -1,6 +1,7 @@
 """Decisions and the review queue."""
 
 import csv
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 
 import pytest
@@ -12,6 +13,7 @@ from usd2kg.grounding import (
     Candidate,
     Decision,
     Grounding,
+    ObjectView,
     Prediction,
     Review,
     Status,
@@ -65,24 +67,47 @@ def test_reads_a_completed_queue_as_decisions(home_tbox: TBox, tmp_path: Path):
     }
 
 
-def test_a_decision_keeps_its_reviewer(home_tbox: TBox):
-    knife = home_tbox.resolve("Knife")
+def test_a_decision_keeps_its_reviewer_and_the_prediction(home_tbox: TBox):
+    knife, cup = home_tbox.resolve("Knife"), home_tbox.resolve("Cup")
     decision = Decision(knife, "https://orcid.org/0000-0001-2345-6789", "it cuts", "2026-07-15T12:00:00Z")
-    scene = make_scene(make_object("/K/Cup"), make_object("/K/Bowl"))
-    decided, other = ground(scene, home_tbox, decisions={"/K/Cup": decision, "/K/Bowl": knife}).predictions
-    assert decided.review == Review(decision.reviewer, None, None, None, "it cuts", "2026-07-15T12:00:00Z")
-    assert other.review is None
+    scene = make_scene(make_object("/K/Cup"), make_object("/K/Bowl"), make_object("/K/Spoon"))
+    (predicted, _, _) = ground(scene, home_tbox).predictions
+    decided, other, asked = ground(
+        scene, home_tbox, decisions={"/K/Cup": decision, "/K/Bowl": knife, "/elsewhere": knife}
+    ).predictions
+    assert decided.review == Review(
+        decision.reviewer, cup, predicted.confidence, Status.GROUNDED, "it cuts", "2026-07-15T12:00:00Z"
+    )
+    assert (decided.class_iri, decided.confidence, decided.status) == (knife, 1.0, Status.REVIEWED)
+    assert (decided.grounder, decided.candidates) == ("lexical", predicted.candidates)
+    assert decided.explanation == f"decided by a person; predicted Cup: {predicted.explanation}"
+    assert other.review is not None and (other.review.reviewer, other.class_iri) == ("", knife)
+    assert (asked.class_iri, asked.review) == (home_tbox.resolve("Spoon"), None)
 
 
-def test_decided_objects_are_not_passed_to_the_grounder(home_tbox: TBox):
-    knife = home_tbox.resolve("Knife")
+class RecordingGrounder:
+    """A grounder that is not built in, whose answers may cost something."""
+
+    name = "llm-B:scripted"
+    is_calibrated = False
+    settings: Mapping[str, str] = {}
+
+    def __init__(self) -> None:
+        self.asked: list[str] = []
+
+    def ground_views(self, views: Sequence[tuple[str, ObjectView]], tbox: TBox) -> list[Prediction]:
+        self.asked += [path for path, _ in views]
+        return [Prediction(path, tbox.resolve("Bowl"), None, Status.GROUNDED, self.name, "") for path, _ in views]
+
+
+def test_decided_objects_are_not_sent_to_a_language_model(home_tbox: TBox):
+    knife, grounder = home_tbox.resolve("Knife"), RecordingGrounder()
     scene = make_scene(make_object("/K/Cup"), make_object("/K/Bowl"))
-    found = ground(scene, home_tbox, decisions={"/K/Cup": knife, "/elsewhere": knife})
-    assert [p.prim_path for p in found.predictions] == ["/K/Cup", "/K/Bowl"]
-    decided, asked = found.predictions
+    decided, asked = ground(scene, home_tbox, grounder, decisions={"/K/Cup": Decision(knife, "Ada")}).predictions
+    assert grounder.asked == ["/K/Bowl"]
     assert (decided.class_iri, decided.confidence, decided.grounder) == (knife, 1.0, PERSON)
+    assert decided.review == Review("Ada", None, None, None)
     assert asked.class_iri == home_tbox.resolve("Bowl")
-    assert asked.grounder == "lexical"
 
 
 @pytest.mark.parametrize(

@@ -90,7 +90,7 @@ def report_tiers(grounding: "Grounding", cascade: "CascadeGrounder | None", mode
     """Print to stderr how many objects each tier decided, and its tokens, price and time."""
     from usd2kg.grounding.llm.prices import format_price  # noqa: PLC0415
 
-    counts = Counter(prediction.grounder for prediction in grounding.predictions)
+    counts = Counter(prediction.chosen_by for prediction in grounding.predictions)
     seconds: dict[str, float] = {}
     if cascade is not None:
         seconds = {cascade.first.name: cascade.report.first_s, cascade.second.name: cascade.report.second_s}

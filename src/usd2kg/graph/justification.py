@@ -55,7 +55,7 @@ def _review(review: Review, decided: str | None) -> Iterator[Annotation]:
     reviewer = named_node(review.reviewer)
     if reviewer is not None:
         yield SSSOM.reviewer_id, reviewer
-    else:
+    elif review.reviewer:
         yield SSSOM.reviewer_label, text(review.reviewer)
     if review.comment:
         yield U2K.reviewComment, text(review.comment)
@@ -68,9 +68,12 @@ def _review(review: Review, decided: str | None) -> Iterator[Annotation]:
 
 
 def matching_process(prediction: Prediction) -> ox.NamedNode:
-    """Return the SEMAPV matching process of a prediction; curation if a reviewer changed the class."""
+    """Return the SEMAPV matching process of a prediction; curation if a person changed the class or is not named.
+
+    A decision without a name is recognised by its process alone, see `read_sssom_decisions`.
+    """
     review = prediction.review
-    if review is not None and review.predicted_class != prediction.class_iri:
+    if review is not None and (not review.reviewer or review.predicted_class != prediction.class_iri):
         return SEMAPV.ManualMappingCuration
     # Grounder ids may include strategy and model: llm-B:openai:gpt.
     return _MATCHING.get(re.split("[-:]", prediction.grounder)[0], SEMAPV.UnspecifiedMatching)

@@ -13,7 +13,6 @@ from usd2kg.grounding.context import (
 )
 from usd2kg.grounding.decisions import (
     NO_CLASS,
-    PERSON,
     DecisionOrigin,
     as_decision,
     find_uncertain,
@@ -23,7 +22,7 @@ from usd2kg.grounding.decisions import (
 from usd2kg.grounding.ground import ground as ground
 from usd2kg.grounding.ground import parse_evidence, parse_regime
 from usd2kg.grounding.mapping_files import MAPPING_FORMATS, check_format, format_mapping, read_grounding, read_paths
-from usd2kg.grounding.model import Candidate, Concept, Decision, Grounding, Prediction, Review, Status
+from usd2kg.grounding.model import PERSON, Candidate, Concept, Decision, Grounding, Prediction, Review, Status
 from usd2kg.grounding.platt_scaling import PlattScaling, read_scaling
 from usd2kg.grounding.registry import GROUNDERS, is_llm_name, make_grounder
 

@@ -6,11 +6,12 @@ A queue is a CSV file with an empty column `decision`. Filled in, it is a file o
 import csv
 import io
 from collections.abc import Iterator, Sequence
+from dataclasses import replace
 from pathlib import Path
 from typing import NamedTuple
 
 from usd2kg.errors import GroundingError, OntologyError
-from usd2kg.grounding.model import Decision, Grounding, Prediction, Review, Status
+from usd2kg.grounding.model import PERSON, Decision, Grounding, Prediction, Review, Status
 from usd2kg.grounding.settings import QUEUE
 from usd2kg.grounding.sssom_decisions import is_sssom, read_sssom_decisions
 from usd2kg.ontology import ClassIRI, TBox
@@ -18,17 +19,15 @@ from usd2kg.spreadsheet import guard_formula
 
 __all__ = [
     "NO_CLASS",
-    "PERSON",
     "DecisionOrigin",
     "as_decision",
+    "decide",
     "find_uncertain",
     "format_queue",
     "make_decision",
     "read_decisions",
 ]
 
-PERSON = "person"
-"""The grounder id of decisions."""
 NO_CLASS = "none"
 """The decision that no class fits, in a CSV file."""
 _EXPECTED = "expected CSV with the columns path and decision (or class)"
@@ -90,22 +89,38 @@ def as_decision(decision: ClassIRI | Decision) -> Decision:
     return Decision(decision) if isinstance(decision, str) else decision
 
 
-def make_decision(prim_path: str, decision: ClassIRI | Decision, origin: DecisionOrigin | None = None) -> Prediction:
-    """Return a person's decision as a prediction; `origin` is given if it was made about another path."""
+def decide(
+    prediction: Prediction, decision: ClassIRI | Decision, tbox: TBox, origin: DecisionOrigin | None = None
+) -> Prediction:
+    """Return a prediction with a person's decision; `origin` is given if it was made about another path."""
     made = as_decision(decision)
-    explanation = "decided by a person"
-    if origin is not None:
-        explanation += f" for {origin.prim_path}, the same object ({origin.reason})"
+    predicted = "no class" if prediction.class_iri is None else tbox.by_iri[prediction.class_iri].local_name
+    decided = prediction.reviewed(made.class_iri, made.reviewer, confidence=1.0, comment=made.comment, time=made.time)
+    return replace(
+        decided,
+        explanation=f"{_explain(origin)}; predicted {predicted}: {prediction.explanation}",
+        decided_for=origin.prim_path if origin is not None else "",
+    )
+
+
+def make_decision(prim_path: str, decision: ClassIRI | Decision, origin: DecisionOrigin | None = None) -> Prediction:
+    """Return a person's decision about an object without a prediction; `origin` is given as for `decide`."""
+    made = as_decision(decision)
     return Prediction(
         prim_path=prim_path,
         class_iri=made.class_iri,
         confidence=1.0,
         status=Status.REVIEWED,
         grounder=PERSON,
-        explanation=explanation,
+        explanation=_explain(origin),
         review=Review(made.reviewer, None, None, None, made.comment, made.time) if made.reviewer else None,
         decided_for=origin.prim_path if origin is not None else "",
     )
+
+
+def _explain(origin: DecisionOrigin | None) -> str:
+    of_another_path = f" for {origin.prim_path}, the same object ({origin.reason})" if origin is not None else ""
+    return f"decided by a person{of_another_path}"
 
 
 def find_uncertain(grounding: Grounding, min_confidence: float) -> list[Prediction]:

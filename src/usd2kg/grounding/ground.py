@@ -6,9 +6,9 @@ from usd2kg.errors import GroundingError
 from usd2kg.grounding.base import Grounder
 from usd2kg.grounding.concepts import add_concepts
 from usd2kg.grounding.context.views import ABBREVIATED_LENGTH, EVIDENCE_GROUPS, NamingRegime, view_objects
-from usd2kg.grounding.decisions import DecisionOrigin, make_decision
+from usd2kg.grounding.decisions import DecisionOrigin, decide, make_decision
 from usd2kg.grounding.model import Decision, Grounding, Prediction, Status
-from usd2kg.grounding.registry import make_grounder
+from usd2kg.grounding.registry import GROUNDERS, make_grounder
 from usd2kg.ontology import ClassIRI, TBox
 from usd2kg.scene import Scene
 from usd2kg.tracing import traced
@@ -38,8 +38,9 @@ def ground(
         regime: how names are masked.
         evidence: names of the evidence groups to use; all by default.
         paths: ground only these prims, in this order; prims that are not on the stage get the status `missing`.
-        decisions: prim path → class that a person decided on, alone or with the reviewer; these objects are not passed
-            to the grounder.
+        decisions: prim path → class that a person decided on, alone or with the reviewer. `Prediction.review` keeps
+            what a built-in grounder predicted; these objects are not passed to other grounders, whose answers may cost
+            something.
         carried: prim path → origin, for decisions that were made about another path.
         abbreviated_length: letters kept of each word in the abbreviated regime.
     """
@@ -51,10 +52,14 @@ def ground(
     views = {obj.prim_path: view for obj, view in view_objects(scene, regime, evidence, abbreviated_length)}
     wanted = list(dict.fromkeys(paths)) if paths is not None else list(views)
     origins = carried or {}
-    known = {p: make_decision(p, iri, origins.get(p)) for p, iri in (decisions or {}).items() if p in views}
-    undecided = [(path, views[path]) for path in wanted if path in views and path not in known]
-    grounded = {p.prim_path: p for p in grounder.ground_views(undecided, tbox)}
-    by_path, concepts = add_concepts(known | grounded, views, tbox)
+    decided = {path: made for path, made in (decisions or {}).items() if path in views}
+    passed = [path for path in wanted if path in views and (grounder.name in GROUNDERS or path not in decided)]
+    grounded = {p.prim_path: p for p in grounder.ground_views([(path, views[path]) for path in passed], tbox)}
+    for path, made in decided.items():
+        found = grounded.get(path)
+        origin = origins.get(path)
+        grounded[path] = make_decision(path, made, origin) if found is None else decide(found, made, tbox, origin)
+    by_path, concepts = add_concepts(grounded, views, tbox)
     return Grounding(
         scene=scene.source,
         scene_hash=scene.content_hash,

@@ -8,7 +8,10 @@ from functools import cached_property
 from usd2kg.ontology import ClassIRI
 from usd2kg.rich_display import RichDisplay
 
-__all__ = ["Candidate", "Concept", "Decision", "Grounding", "Prediction", "Review", "Status"]
+__all__ = ["PERSON", "Candidate", "Concept", "Decision", "Grounding", "Prediction", "Review", "Status"]
+
+PERSON = "person"
+"""The grounder id of a decision about an object that was not grounded."""
 
 
 class Status(StrEnum):
@@ -53,7 +56,7 @@ class Concept:
 
 @dataclass(frozen=True, slots=True)
 class Decision:
-    """The class that a person chose for an object, without knowing or keeping what was predicted."""
+    """The class that a person chose for an object; what was predicted is not part of it."""
 
     class_iri: ClassIRI | None
     """None if no class fits."""
@@ -70,7 +73,7 @@ class Review:
     """A person's decision about an object, and what was predicted before."""
 
     reviewer: str
-    """Who decided: an IRI such as an ORCID iD, or a name."""
+    """Who decided: an IRI such as an ORCID iD, or a name; empty if unknown."""
     predicted_class: ClassIRI | None
     predicted_confidence: float | None
     predicted_status: Status | None
@@ -111,6 +114,11 @@ class Prediction:
     """IRI of the concept that the object's own words name, in `Grounding.concepts`; None if they name none."""
     concept_confidence: float | None = None
     """Probability that the concept is right, from 0 to 1, calibrated on names of objects in homes and workplaces."""
+
+    @property
+    def chosen_by(self) -> str:
+        """Who chose the class: `PERSON`, or the id of the grounder."""
+        return PERSON if self.status is Status.REVIEWED else self.grounder
 
     def reviewed(
         self,

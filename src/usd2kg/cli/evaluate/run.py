@@ -122,7 +122,7 @@ def _tiers_text(result: "Evaluation") -> str:
     by_tier: dict[str, list[Score]] = {}
     for score in result.scores:
         prediction = result.grounding.by_path.get(score.id)
-        by_tier.setdefault(prediction.grounder if prediction else "", []).append(score)
+        by_tier.setdefault(prediction.chosen_by if prediction else "", []).append(score)
     if len(by_tier) < 2:
         return ""
     rows = [

@@ -135,7 +135,7 @@ def _row(p: Prediction, tbox: TBox, names: Mapping[str, str], base: str, curies:
         "object_label": cell_text(tbox.by_iri[p.class_iri].label) if p.class_iri else "",
         "mapping_justification": curies.shorten(matching_process(p).value),
         "reviewer_id": curies.shorten(review.reviewer) if review is not None and has_id else "",
-        "reviewer_label": _item(review.reviewer) if review is not None and not has_id else "",
+        "reviewer_label": _item(review.reviewer) if review is not None and review.reviewer and not has_id else "",
         "review_date": day if re.fullmatch(r"\d{4}-\d{2}-\d{2}", day, flags=re.ASCII) else "",
         "confidence": "" if p.confidence is None else f"{p.confidence:.4f}",
         "comment": cell_text("; ".join(filter(None, (p.explanation, review.comment if review is not None else "")))),
