@@ -16,7 +16,7 @@ from usd2kg import build
 from usd2kg.convert.sdf import budget as sdf_budget
 from usd2kg.convert.sdf import meshes, xml_files
 from usd2kg.convert.sdf.frames import Scope
-from usd2kg.convert.sdf.model import Frame, Pose, World
+from usd2kg.convert.sdf.model import Pose, SdfFrame, SdfWorld
 from usd2kg.convert.sdf.notes import Notes
 from usd2kg.convert.sdf.resources import ResourceError, Resources
 from usd2kg.convert.sdf.values import pose_matrix, quaternion_matrix
@@ -313,18 +313,18 @@ class TestFrames:
         for index in range(count):
             matrix = pose_matrix(*data.draw(st.tuples(*[numbers] * 6)))
             above = data.draw(st.sampled_from(["world", *expected]))
-            frames.append(Frame(f"f{index}", Pose(matrix, above)))
+            frames.append(SdfFrame(f"f{index}", Pose(matrix, above)))
             expected[f"f{index}"] = expected.get(above, np.eye(4)) @ matrix
         shuffled = data.draw(st.permutations(frames))
-        scope = Scope(World("w", (), tuple(shuffled)), Notes(), Path("w.sdf"))
+        scope = Scope(SdfWorld("w", (), tuple(shuffled)), Notes(), Path("w.sdf"))
         for name, matrix in expected.items():
             assert np.allclose(scope.pose(name), matrix, atol=1e-9)
 
     def test_a_long_chain_of_frames_needs_no_recursion(self):
-        frames = [Frame("f0", Pose(np.eye(4)))]
+        frames = [SdfFrame("f0", Pose(np.eye(4)))]
         step = pose_matrix(1, 0, 0, 0, 0, 0)
-        frames += [Frame(f"f{index}", Pose(step, f"f{index - 1}")) for index in range(1, 5000)]
-        found = Scope(World("w", (), tuple(frames)), Notes(), Path("w.sdf")).pose("f4999")
+        frames += [SdfFrame(f"f{index}", Pose(step, f"f{index - 1}")) for index in range(1, 5000)]
+        found = Scope(SdfWorld("w", (), tuple(frames)), Notes(), Path("w.sdf")).pose("f4999")
         assert found is not None
         assert found[0, 3] == pytest.approx(4999)
 

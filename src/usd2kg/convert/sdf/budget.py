@@ -1,4 +1,4 @@
-"""Budget: how much a world may have, with all that it includes and repeats."""
+"""SdfBudget: size limits of a world, counting included and repeated content."""
 
 from pathlib import Path
 
@@ -6,28 +6,29 @@ from usd2kg.convert.converted import parse_error
 from usd2kg.convert.sdf.xml_tree import XmlElement
 from usd2kg.errors import SceneError
 
-__all__ = ["Budget"]
+__all__ = ["SdfBudget"]
 
 _MAX_ELEMENTS = 500_000
 """Models, links, visuals, joints, frames, includes and parts of meshes.
 
-Few lines can include or repeat without end. Each kB of an included file counts as one, too, whatever is in it.
+A short file can include or repeat content without bound. Each kilobyte of an included file also counts as one
+element.
 """
 _MAX_TRIANGLES = 100_000_000
-"""Triangles of meshes, as often as visuals repeat them; worlds of whole buildings have a few millions."""
+"""Mesh triangles, counted once per visual; worlds of whole buildings have a few million."""
 
 
-class Budget:
-    """Counts what is read of a world."""
+class SdfBudget:
+    """Counts elements and triangles while a world is read."""
 
     def __init__(self, path: Path) -> None:
-        """Count for the file `path`, about which the errors are."""
+        """Start counting; `path` is the file named in errors."""
         self._path = path
         self._elements = 0
         self._triangles = 0
 
     def count_elements(self, element: XmlElement, path: Path, count: int = 1) -> None:
-        """Count elements; `element` in the file `path` is where there are too many.
+        """Count elements; `element` in the file `path` is the location for an error.
 
         Raises:
             SceneError: there are more than 500,000.
@@ -38,7 +39,7 @@ class Budget:
             raise self.too_much(element, path, f"more than {_MAX_ELEMENTS:,} {kinds}, with those that it includes")
 
     def count_mesh(self, element: XmlElement, path: Path, parts: int, triangles: int) -> None:
-        """Count a mesh that a visual shows, before its prims are made.
+        """Count the mesh of a visual, before its prims are created.
 
         Raises:
             SceneError: there are more than 500,000 elements, or 100 million triangles.
@@ -49,5 +50,5 @@ class Budget:
             raise self.too_much(element, path, f"more than {_MAX_TRIANGLES:,} triangles, with repeated meshes")
 
     def too_much(self, element: XmlElement, path: Path, found: str) -> SceneError:
-        """Return the error of a world that has too much of something."""
+        """Return the error for a world beyond a limit."""
         return parse_error(self._path, f"{path.name}, line {element.line}: it has {found}", "fewer of them")

@@ -7,7 +7,7 @@ from pathlib import Path
 import numpy as np
 
 from usd2kg.convert.sdf.frames import MODEL_FRAME
-from usd2kg.convert.sdf.model import Axis, Frame, Link, Pose, Visual
+from usd2kg.convert.sdf.model import Axis, Pose, SdfFrame, SdfLink, Visual
 from usd2kg.convert.sdf.notes import Notes
 from usd2kg.convert.sdf.values import is_true, read_matrix, read_number, read_numbers
 from usd2kg.convert.sdf.xml_tree import XmlElement
@@ -26,17 +26,17 @@ def read_pose(element: XmlElement, path: Path, notes: Notes) -> Pose:
     return Pose(read_matrix(found, path, notes), "" if found is None else found.name("relative_to"))
 
 
-def read_frame(element: XmlElement, path: Path, notes: Notes) -> Frame:
+def read_frame(element: XmlElement, path: Path, notes: Notes) -> SdfFrame:
     """Return a frame."""
-    return Frame(element.name(), read_pose(element, path, notes), element.name("attached_to"))
+    return SdfFrame(element.name(), read_pose(element, path, notes), element.name("attached_to"))
 
 
-def read_link(element: XmlElement, path: Path, notes: Notes) -> Link:
+def read_link(element: XmlElement, path: Path, notes: Notes) -> SdfLink:
     """Return a link with its visuals; collisions, sensors and lights are left out."""
     inertial = element.find("inertial")
     mass = None if inertial is None else read_number(inertial.find("mass"), path, notes)
     has_center = inertial is not None and inertial.find("pose") is not None
-    return Link(
+    return SdfLink(
         element.name(),
         read_pose(element, path, notes),
         tuple(_visuals(element, path, notes)),
@@ -90,7 +90,7 @@ def _limit(element: XmlElement | None, path: Path, notes: Notes) -> float | None
     return value if abs(value) < _UNLIMITED else None
 
 
-def skin_of(actor: XmlElement, path: Path, notes: Notes) -> Link | None:
+def skin_of(actor: XmlElement, path: Path, notes: Notes) -> SdfLink | None:
     """Return a link with the skin of an actor; None without one."""
     skin = actor.find("skin")
     if skin is None or not skin.text_of("filename"):
@@ -100,7 +100,7 @@ def skin_of(actor: XmlElement, path: Path, notes: Notes) -> Link | None:
     mesh.children.append(XmlElement("uri", text=skin.text_of("filename"), line=skin.line))
     mesh.children.append(XmlElement("scale", text=" ".join([str(1.0 if scale is None else scale)] * 3)))
     geometry = XmlElement("geometry", children=[mesh], line=skin.line)
-    return Link("body", Pose(np.eye(4)), (Visual("skin", Pose(np.eye(4)), geometry, path),))
+    return SdfLink("body", Pose(np.eye(4)), (Visual("skin", Pose(np.eye(4)), geometry, path),))
 
 
 def first_waypoint(actor: XmlElement, path: Path, notes: Notes) -> Pose | None:

@@ -6,7 +6,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from usd2kg.convert.sdf.model import Link, Model, Pose, World
+from usd2kg.convert.sdf.model import Model, Pose, SdfLink, SdfWorld
 from usd2kg.convert.sdf.notes import Notes
 from usd2kg.convert.sdf.values import Matrix, inverse
 
@@ -28,9 +28,9 @@ class _Entry(NamedTuple):
 class Scope:
     """The named frames of a model or world."""
 
-    def __init__(self, owner: Model | World, notes: Notes, path: Path) -> None:
+    def __init__(self, owner: Model | SdfWorld, notes: Notes, path: Path) -> None:
         """Collect the frames of `owner`, which is stated in the file `path`."""
-        self.root = WORLD_FRAME if isinstance(owner, World) else MODEL_FRAME
+        self.root = WORLD_FRAME if isinstance(owner, SdfWorld) else MODEL_FRAME
         self._scopes = {id(model): Scope(model, notes, model.path) for model in owner.models}
         self._children = {model.name: self._scopes[id(model)] for model in reversed(owner.models)}
         self._notes = notes
@@ -45,7 +45,7 @@ class Scope:
         """Return the scope of a model of `owner`."""
         return self._scopes[id(model)]
 
-    def _add_all(self, owner: Model | World) -> None:
+    def _add_all(self, owner: Model | SdfWorld) -> None:
         for model in owner.models:
             self._add(model.name, _Entry(self._model_matrix(model), model.pose.relative_to or self.root, ""))
         for frame in owner.frames:
@@ -147,10 +147,10 @@ class Scope:
         self._notes.add(self._path, self._element, text)
 
 
-def _canonical_link(owner: Model | World) -> str:
-    if isinstance(owner, World):
+def _canonical_link(owner: Model | SdfWorld) -> str:
+    if isinstance(owner, SdfWorld):
         return ""
     if owner.canonical_link:
         return owner.canonical_link
-    named: Iterable[Link | Model] = (*owner.links, *owner.models)
+    named: Iterable[SdfLink | Model] = (*owner.links, *owner.models)
     return next((entry.name for entry in named), "")

@@ -8,7 +8,7 @@ from pxr import Gf, Usd, UsdPhysics
 
 from usd2kg.convert.prims import PrimAuthor
 from usd2kg.convert.sdf.frames import WORLD_FRAME, Scope
-from usd2kg.convert.sdf.model import Axis, Joint
+from usd2kg.convert.sdf.model import Axis, SdfJoint
 from usd2kg.convert.sdf.notes import Notes
 from usd2kg.convert.sdf.values import Matrix, inverse
 
@@ -29,7 +29,7 @@ _TOKENS = {(1.0, 0.0, 0.0): "X", (0.0, 1.0, 0.0): "Y", (0.0, 0.0, 1.0): "Z"}
 def define_joint(
     author: PrimAuthor,
     parent: str,
-    joint: Joint,
+    joint: SdfJoint,
     scope: Scope,
     bodies: Mapping[str, str],
     to_world: Matrix,

@@ -1,4 +1,4 @@
-"""What an SDFormat file describes, as records; poses are not yet resolved."""
+"""Records of the contents of an SDFormat file, with unresolved poses."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
@@ -7,7 +7,7 @@ from pathlib import Path
 from usd2kg.convert.sdf.values import Matrix
 from usd2kg.convert.sdf.xml_tree import XmlElement
 
-__all__ = ["Asset", "Axis", "Frame", "Joint", "Link", "Model", "Pose", "Visual", "World"]
+__all__ = ["Asset", "Axis", "Model", "Pose", "SdfFrame", "SdfJoint", "SdfLink", "SdfWorld", "Visual"]
 
 
 @dataclass(frozen=True, eq=False)
@@ -20,7 +20,7 @@ class Pose:
 
 
 @dataclass(frozen=True, eq=False)
-class Frame:
+class SdfFrame:
     """A named frame of a model or world."""
 
     name: str
@@ -30,20 +30,20 @@ class Frame:
 
 @dataclass(frozen=True, eq=False)
 class Visual:
-    """A shape that is seen."""
+    """A visual shape."""
 
     name: str
     pose: Pose
     """By default relative to the link."""
     geometry: XmlElement
     path: Path
-    """The file that states it."""
+    """File that contains the element."""
     material: XmlElement | None = None
     transparency: float = 0.0
 
 
 @dataclass(frozen=True, eq=False)
-class Link:
+class SdfLink:
     """A body of a model."""
 
     name: str
@@ -61,14 +61,14 @@ class Axis:
     xyz: tuple[float, ...]
     """(3,), in the frame `expressed_in`."""
     expressed_in: str = ""
-    """Name of a frame; empty for that of the joint."""
+    """Name of a frame; empty for the frame of the joint."""
     lower: float | None = None
-    """Radians or metres; None if it is unlimited."""
+    """Radians or metres; None if unlimited."""
     upper: float | None = None
 
 
 @dataclass(frozen=True, eq=False)
-class Joint:
+class SdfJoint:
     """A joint between two links, or a link and the world."""
 
     name: str
@@ -84,7 +84,7 @@ class Joint:
 
 @dataclass(frozen=True)
 class Asset:
-    """The model that an include names, of which there may be several copies."""
+    """A model referenced by an include; several includes may share it."""
 
     name: str
     uri: str
@@ -101,24 +101,24 @@ class Model:
     element: XmlElement
     path: Path
     placement_frame: str = ""
-    """The frame of the model that its pose places; empty for its own frame."""
+    """Frame of the model that its pose refers to; empty for the model frame."""
     canonical_link: str = ""
     is_static: bool = False
     is_person: bool = False
     """Whether it is an actor with a skin."""
     asset: Asset | None = None
-    links: tuple[Link, ...] = ()
-    joints: tuple[Joint, ...] = ()
-    frames: tuple[Frame, ...] = ()
+    links: tuple[SdfLink, ...] = ()
+    joints: tuple[SdfJoint, ...] = ()
+    frames: tuple[SdfFrame, ...] = ()
     models: tuple["Model", ...] = ()
 
 
 @dataclass(frozen=True, eq=False)
-class World:
+class SdfWorld:
     """A world, or the models of a file without one."""
 
     name: str
     """Empty for a file without a world."""
     models: tuple[Model, ...]
-    frames: tuple[Frame, ...] = ()
-    joints: tuple[Joint, ...] = ()
+    frames: tuple[SdfFrame, ...] = ()
+    joints: tuple[SdfJoint, ...] = ()

@@ -9,10 +9,10 @@ from pxr import Gf, Kind, Sdf, Usd, UsdPhysics, UsdSemantics, Vt
 
 from usd2kg.convert.converted import Converted
 from usd2kg.convert.prims import PrimAuthor, custom_data, new_stage, valid_text
-from usd2kg.convert.sdf.budget import Budget
+from usd2kg.convert.sdf.budget import SdfBudget
 from usd2kg.convert.sdf.frames import MODEL_FRAME, NESTED, Scope
 from usd2kg.convert.sdf.joints import define_joint
-from usd2kg.convert.sdf.model import Asset, Link, Model, Pose, World
+from usd2kg.convert.sdf.model import Asset, Model, Pose, SdfLink, SdfWorld
 from usd2kg.convert.sdf.notes import Notes
 from usd2kg.convert.sdf.reader import SdfReader
 from usd2kg.convert.sdf.resources import Resources
@@ -33,7 +33,7 @@ def read_prims(path: Path) -> Converted:
         SceneError: it is no SDFormat file, has no world and no model, includes itself, or has more than a
             scene can have.
     """
-    notes, resources, budget = Notes(), Resources(path), Budget(path)
+    notes, resources, budget = Notes(), Resources(path), SdfBudget(path)
     world = SdfReader(path, resources, notes, budget).read()
     stage = new_stage("Z", 1.0)
     _StageWriter(stage, resources, notes, budget).write(world, path)
@@ -43,7 +43,7 @@ def read_prims(path: Path) -> Converted:
 class _StageWriter:
     """Writes models as prims; `SdfReader` limits how deep they are nested."""
 
-    def __init__(self, stage: Usd.Stage, resources: Resources, notes: Notes, budget: Budget) -> None:
+    def __init__(self, stage: Usd.Stage, resources: Resources, notes: Notes, budget: SdfBudget) -> None:
         self._stage = stage
         self._author = PrimAuthor(stage)
         self._resources = resources
@@ -51,7 +51,7 @@ class _StageWriter:
         self._budget = budget
         self._visuals: VisualAuthor | None = None
 
-    def write(self, world: World, path: Path) -> None:
+    def write(self, world: SdfWorld, path: Path) -> None:
         """Write the models of a file, which is at `path`."""
         scope = Scope(world, self._notes, path)
         if not world.name and len(world.models) == 1:
@@ -67,7 +67,7 @@ class _StageWriter:
         for joint in world.joints:
             define_joint(self._author, parent.path, joint, scope, bodies, parent.to_world, self._notes)
 
-    def _write_models(self, owner: World | Model, scope: Scope, parent: "_Parent") -> dict[str, str]:
+    def _write_models(self, owner: SdfWorld | Model, scope: Scope, parent: "_Parent") -> dict[str, str]:
         """Write the models of `owner`, and return their links, as `Scope.link_of` names them, with their paths."""
         bodies: dict[str, str] = {}
         for model in owner.models:
@@ -95,7 +95,7 @@ class _StageWriter:
             define_joint(self._author, below.path, joint, scope, bodies, below.to_world, self._notes)
         return bodies
 
-    def _write_link(self, link: Link, scope: Scope, parent: "_Parent") -> str:
+    def _write_link(self, link: SdfLink, scope: Scope, parent: "_Parent") -> str:
         prim = self._author.define(parent.path, link.name or "link")
         path = str(prim.GetPath())
         matrix = scope.place(link.pose, MODEL_FRAME)

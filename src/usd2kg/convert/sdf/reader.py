@@ -9,10 +9,10 @@ from typing import NamedTuple
 import numpy as np
 
 from usd2kg.convert.converted import parse_error
-from usd2kg.convert.sdf.budget import Budget
+from usd2kg.convert.sdf.budget import SdfBudget
 from usd2kg.convert.sdf.elements import first_waypoint, read_axis, read_frame, read_link, read_pose, skin_of
 from usd2kg.convert.sdf.merge import merge_models
-from usd2kg.convert.sdf.model import Asset, Frame, Joint, Link, Model, Pose, World
+from usd2kg.convert.sdf.model import Asset, Model, Pose, SdfFrame, SdfJoint, SdfLink, SdfWorld
 from usd2kg.convert.sdf.notes import Notes
 from usd2kg.convert.sdf.resources import ResourceError, Resources, asset_name
 from usd2kg.convert.sdf.values import is_true
@@ -52,14 +52,14 @@ class _Place(NamedTuple):
 class SdfReader:
     """Reads a file and what it includes."""
 
-    def __init__(self, path: Path, resources: Resources, notes: Notes, budget: Budget) -> None:
+    def __init__(self, path: Path, resources: Resources, notes: Notes, budget: SdfBudget) -> None:
         self._path = path
         self._resources = resources
         self._notes = notes
         self._budget = budget
         self._files = XmlFiles()
 
-    def read(self) -> World:
+    def read(self) -> SdfWorld:
         """Return the first world of the file, or its models.
 
         Raises:
@@ -80,7 +80,7 @@ class SdfReader:
         models = tuple(self._models(root, place))
         if not models:
             raise parse_error(self._path, f"line {root.line}: it has no world, model or actor", EXPECTED)
-        return World("", models)
+        return SdfWorld("", models)
 
     def _place(self, root: XmlElement, path: Path, above: tuple[Path, ...], level: int = 0) -> _Place:
         text = root.name("version")
@@ -90,12 +90,12 @@ class SdfReader:
         version = int(found[1]) if found else _LAST_VERSION
         return _Place(path, (*above, path), level, version)
 
-    def _world(self, element: XmlElement, place: _Place) -> World:
+    def _world(self, element: XmlElement, place: _Place) -> SdfWorld:
         for tag in _LEFT_OUT_OF_WORLDS:
             found = element.find(tag)
             if found is not None:
                 self._notes.add(place.path, found, f"<{tag}> is left out")
-        return World(
+        return SdfWorld(
             element.name(),
             tuple(self._models(element, place)),
             tuple(self._frames(element, place)),
@@ -158,20 +158,20 @@ class SdfReader:
             links=tuple(links),
         )
 
-    def _links(self, parent: XmlElement, place: _Place) -> Iterator[Link]:
+    def _links(self, parent: XmlElement, place: _Place) -> Iterator[SdfLink]:
         for element in parent.find_all("link"):
             self._count_elements(element, place, 1 + sum(1 for _ in element.find_all("visual")))
             yield read_link(element, place.path, self._notes)
 
-    def _frames(self, parent: XmlElement, place: _Place) -> Iterator[Frame]:
+    def _frames(self, parent: XmlElement, place: _Place) -> Iterator[SdfFrame]:
         for element in parent.find_all("frame"):
             self._count_elements(element, place)
             yield read_frame(element, place.path, self._notes)
 
-    def _joints(self, parent: XmlElement, place: _Place) -> Iterator[Joint]:
+    def _joints(self, parent: XmlElement, place: _Place) -> Iterator[SdfJoint]:
         for element in parent.find_all("joint"):
             self._count_elements(element, place)
-            yield Joint(
+            yield SdfJoint(
                 name=element.name(),
                 type=element.name("type"),
                 parent=element.text_of("parent"),

@@ -9,7 +9,7 @@ from pxr import Usd, UsdGeom, UsdShade, Vt
 
 from usd2kg.convert.materials import MaterialAuthor, SurfaceMaterial
 from usd2kg.convert.prims import PrimAuthor, SourceMesh
-from usd2kg.convert.sdf.budget import Budget
+from usd2kg.convert.sdf.budget import SdfBudget
 from usd2kg.convert.sdf.meshes import MeshFiles, MeshPart
 from usd2kg.convert.sdf.model import Visual
 from usd2kg.convert.sdf.notes import Notes
@@ -30,7 +30,7 @@ _MIN_OUTLINE = 3
 class VisualAuthor:
     """Authors visuals as prims."""
 
-    def __init__(self, author: PrimAuthor, root: str, resources: Resources, notes: Notes, budget: Budget) -> None:
+    def __init__(self, author: PrimAuthor, root: str, resources: Resources, notes: Notes, budget: SdfBudget) -> None:
         """Keep materials in a scope below the path `root`."""
         self._author = author
         self._resources = resources

@@ -16,7 +16,7 @@ __all__ = [
     "SAMPLING",
     "BatchSettings",
     "CommandSettings",
-    "ConceptSettings",
+    "ConceptQuestionSettings",
     "DecodingSettings",
     "DegenerationSettings",
     "EstimateSettings",
@@ -87,7 +87,7 @@ class MemberSettings:
 
 
 @dataclass(frozen=True, slots=True)
-class ConceptSettings:
+class ConceptQuestionSettings:
     """Questions about groups of objects that share a concept."""
 
     concepts_per_prompt: int
@@ -112,5 +112,5 @@ BATCH = read_settings("llm", "batch", BatchSettings)
 SAMPLING = read_settings("llm", "sampling", SamplingSettings)
 ESTIMATES = read_settings("llm", "estimates", EstimateSettings)
 MEMBERS = read_settings("llm", "members", MemberSettings)
-CONCEPTS = read_settings("llm", "concepts", ConceptSettings)
+CONCEPTS = read_settings("llm", "concepts", ConceptQuestionSettings)
 COMMANDS = read_settings("llm", "commands", CommandSettings)
