@@ -1,4 +1,4 @@
-"""open_batch_folder: the output folder of a batch, which one batch uses at a time."""
+"""open_batch_folder: the output folder of a batch, locked for other batches."""
 
 from collections.abc import Iterator
 from contextlib import ExitStack, contextmanager
@@ -12,7 +12,7 @@ __all__ = ["open_batch_folder"]
 
 @contextmanager
 def open_batch_folder(folder: Path, seconds: float) -> Iterator[None]:
-    """Make a folder and lock it; wait up to `seconds` for another batch.
+    """Create a folder and lock it; wait up to `seconds` for another batch.
 
     Raises:
         OutputError: it cannot be made or written, or another batch uses it.

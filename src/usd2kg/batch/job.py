@@ -1,4 +1,4 @@
-"""Job, Outcome and Task: what a worker is given, what it answers, and what it does."""
+"""Job, Outcome and Task: the input, the result and the work of a worker."""
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
@@ -10,7 +10,7 @@ from usd2kg.errors import Usd2kgError, one_line
 __all__ = ["LAYERS", "Job", "Outcome", "Task", "attempt"]
 
 LAYERS = "layers"
-"""Key in what a task returns: the `StageFile` of each file that the scene refers to. All else is the summary."""
+"""Key in the result of a task for the `StageFile` of each file of the scene; other keys are the summary."""
 
 
 @dataclass(frozen=True)
@@ -28,11 +28,11 @@ class Job:
 
 @dataclass(frozen=True)
 class Outcome:
-    """How one job ended."""
+    """The outcome of one job."""
 
     job: Job
     summary: Mapping[str, Any] | None
-    """What the task returned, with `LAYERS` if it knows them; None if it failed."""
+    """Result of the task, with `LAYERS` if known; None if the job failed."""
     error: str
     """Why it failed, on one line; empty otherwise."""
     seconds: float
@@ -41,14 +41,14 @@ class Outcome:
 
 
 class Task(Protocol):
-    """What is done for each job. It is pickled, sent to each worker once, and prepared there."""
+    """The work done for each job. A task is pickled, sent to each worker once, and prepared there."""
 
     def prepare(self) -> Callable[[Job], Mapping[str, Any]]:
-        """Return the function that does one job, after all that its jobs have in common is loaded."""
+        """Load the data shared by all jobs, and return the function that does one job."""
 
 
 def attempt(work: Callable[[Job], Mapping[str, Any]], job: Job) -> tuple[Mapping[str, Any] | None, str]:
-    """Return the summary of a job, and an empty string; or None, and why it failed."""
+    """Return the summary of a job and an empty string, or None and the reason for its failure."""
     try:
         return work(job), ""
     except Usd2kgError as error:
@@ -58,5 +58,5 @@ def attempt(work: Callable[[Job], Mapping[str, Any]], job: Job) -> tuple[Mapping
     except RecursionError:
         return None, f"{job.source}: is nested too deeply to be read"
     except Exception as error:
-        # A fault of the program in one scene must not end the others.
+        # A bug triggered by one scene must not stop the others.
         return None, f"{job.source}: {type(error).__name__}: {one_line(error)}; please report it"

@@ -1,4 +1,4 @@
-"""The files that a scene refers to: recorded with its graph, and compared with those on disk when a batch resumes."""
+"""The files that a scene refers to, recorded with its graph and compared with the disk when a batch resumes."""
 
 import os
 from collections.abc import Iterable
@@ -37,14 +37,14 @@ def relative_files(files: Iterable[StageFile], source: Path, begun_ns: int) -> t
 
 
 class ChangedFiles:
-    """Compares recorded files with those on disk; a file that many scenes share is looked at once."""
+    """Compares recorded files with those on disk; a file shared by many scenes is checked once."""
 
     def __init__(self) -> None:
         self._state = cache(_state)
         self._hash = cache(hash_file)
 
     def any_of(self, files: Iterable[StageFile], source: Path) -> bool:
-        """Return whether a file that a scene refers to has another content than recorded, or is missing."""
+        """Return whether a file of a scene has changed since it was recorded, or is missing."""
         folder = source.resolve().parent
         return any(self._has_changed(file, folder / file.path) for file in files)
 
@@ -57,12 +57,12 @@ class ChangedFiles:
         try:
             return state[0] != file.bytes or self._hash(path) != file.sha256
         except OSError:
-            # The build of the scene says what is wrong.
+            # Building the scene reports the problem.
             return True
 
 
 def _state(path: Path) -> tuple[int, int] | None:
-    """Return the size and the time of change; None for a missing file."""
+    """Return the size and the modification time; None for a missing file."""
     try:
         state = path.stat()
     except OSError:
@@ -74,5 +74,5 @@ def _relative(path: str, folder: Path) -> str:
     try:
         return Path(os.path.relpath(path, folder)).as_posix()
     except ValueError:
-        # On another drive of Windows.
+        # The file is on another Windows drive.
         return path

@@ -1,4 +1,4 @@
-"""Manifest: what became of each scene of a batch, one JSON record a line."""
+"""Manifest: the outcome of each scene of a batch, one JSON record per line."""
 
 import json
 from collections.abc import Iterator, Mapping
@@ -15,7 +15,7 @@ __all__ = ["JobStatus", "Manifest", "Record", "SourceState"]
 
 
 class JobStatus(StrEnum):
-    """How the last attempt ended."""
+    """Outcome of the last attempt."""
 
     DONE = "done"
     FAILED = "failed"
@@ -23,14 +23,14 @@ class JobStatus(StrEnum):
 
 @dataclass(frozen=True)
 class SourceState:
-    """By what a changed scene file is known, without reading it."""
+    """State by which a changed scene file is recognised without reading it."""
 
     bytes: int
     modified_ns: int
 
     @classmethod
     def of(cls, path: Path) -> Self:
-        """Return the state of a file, or of all that is in a folder."""
+        """Return the state of a file, or of all files in a folder."""
         below = path.rglob("*") if path.is_dir() else ()
         states = [found.stat() for found in (path, *below) if found.exists()]
         return cls(sum(state.st_size for state in states), max(state.st_mtime_ns for state in states))
@@ -38,10 +38,10 @@ class SourceState:
 
 @dataclass(frozen=True)
 class Record:
-    """One line: a scene that was built, or could not be."""
+    """One line of the manifest: a scene that was built or that failed."""
 
     scene: str
-    """Its name in the batch."""
+    """Name of the scene in the batch."""
     status: JobStatus
     options: str
     """Hash of the options and the ontology."""
@@ -62,7 +62,7 @@ class Record:
 
 
 class Manifest:
-    """The records of a batch in a file that only grows; the last record of a scene counts.
+    """The records of a batch in an append-only file; the last record of a scene counts.
 
     A record is on disk when `add` returns. A last line that a crash cut short is removed when the file is opened.
     """

@@ -1,4 +1,4 @@
-"""run_in_processes: do jobs in worker processes with limits of time and memory each."""
+"""run_in_processes: do jobs in worker processes with time and memory limits."""
 
 import multiprocessing
 import os
@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 __all__ = ["PoolLimits", "run_in_processes"]
 
 _POLL_S = 0.2
-"""Seconds between two looks at the clock and at the memory of the workers."""
+"""Seconds between two checks of the time and memory of the workers."""
 _MIB = 1 << 20
 
 
@@ -35,13 +35,13 @@ class PoolLimits:
     memory_mib: int
     """Resident memory of a worker, on Linux."""
     attempts: int = 2
-    """Times that a job is begun whose worker dies, or exceeds a limit."""
+    """Maximum number of attempts at a job whose worker dies or exceeds a limit."""
     start_seconds: float = 300.0
     """Wall time until a worker is ready."""
 
 
 def run_in_processes(task: Task, jobs: Iterable[Job], limits: PoolLimits) -> Generator[Outcome]:
-    """Yield the outcome of each job, in the order in which they end.
+    """Yield the outcome of each job in order of completion.
 
     Workers load what all jobs share once, and share its memory where the system can fork. A worker that dies or exceeds
     a limit is replaced, and its job is begun again at the end, once. When the iterator is closed, the workers are
@@ -66,7 +66,7 @@ def run_in_processes(task: Task, jobs: Iterable[Job], limits: PoolLimits) -> Gen
 
 @dataclass(frozen=True)
 class _Ended:
-    """What a worker answered."""
+    """The answer of a worker."""
 
     summary: Mapping[str, Any] | None
     error: str
@@ -86,7 +86,7 @@ class _Worker:
     is_ready: bool = False
     job: Job | None = None
     count: int = 0
-    """Attempts at the job, with this one."""
+    """Attempts at the job, including this one."""
 
 
 class _Pool:
@@ -102,7 +102,7 @@ class _Pool:
         return any(worker.job is not None for worker in self._workers)
 
     def assign(self, waiting: deque[tuple[Job, int]]) -> None:
-        """Give a job to each free worker, and start further ones if there are more jobs."""
+        """Assign a job to each idle worker, and start further workers for the remaining jobs."""
         for worker in self._workers:
             if waiting and worker.is_ready and worker.job is None:
                 worker.job, worker.count = waiting.popleft()
@@ -110,7 +110,7 @@ class _Pool:
                 try:
                     worker.connection.send(worker.job)
                 except OSError:
-                    # It died while it was idle; `collect` finds the job lost.
+                    # The worker died while idle; `collect` will report the job as lost.
                     continue
         starting = sum(not worker.is_ready for worker in self._workers)
         for _ in range(min(self._limits.workers - len(self._workers), len(waiting) - starting)):
@@ -143,13 +143,13 @@ class _Pool:
             return None
         assert isinstance(message, _Ended) and worker.job is not None, "workers answer jobs"
         job, worker.job = worker.job, None
-        # What a large scene leaves behind must not count against the next.
+        # Memory retained from a large scene must not count against the next one.
         if _resident_mib(worker.process.pid) > self._limits.memory_mib / 2:
             self._stop(worker)
         return job, worker.count, message
 
     def _exceeded(self, worker: _Worker) -> str:
-        """Return the limit that a worker exceeds, as the reason of its end; empty if there is none."""
+        """Return the limit that a worker exceeds, as the reason for stopping it; empty if there is none."""
         seconds = self._limits.seconds if worker.is_ready else self._limits.start_seconds
         if (worker.job is not None or not worker.is_ready) and time.monotonic() - worker.since > seconds:
             return f"stopped after {seconds:g} s"
@@ -186,8 +186,8 @@ class _Pool:
 
 
 def _work(connection: Connection, task: Task) -> None:
-    """Do jobs until the other process hangs up."""
-    # Ctrl+C reaches all processes of a terminal; the main process decides what becomes of the workers.
+    """Do jobs until the main process closes the connection."""
+    # Ctrl+C reaches all processes of a terminal; the main process decides when to stop the workers.
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     work = task.prepare()
     try:
@@ -202,7 +202,7 @@ def _work(connection: Connection, task: Task) -> None:
 
 
 def _context() -> "ForkServerContext | SpawnContext":
-    """Return how processes are started: forked from a clean process with everything imported, or else anew."""
+    """Return the start method: a fork server with everything imported, otherwise spawn."""
     if "forkserver" not in multiprocessing.get_all_start_methods():
         return multiprocessing.get_context("spawn")
     context = multiprocessing.get_context("forkserver")
@@ -220,7 +220,7 @@ def _cause(code: int | None) -> str:
 
 
 def _resident_mib(pid: int | None) -> float:
-    """Return the resident memory of a process; 0 where the system does not say."""
+    """Return the resident memory of a process; 0 if the system does not report it."""
     try:
         pages = int(Path(f"/proc/{pid}/statm").read_text("ascii").split()[1])
     except (OSError, ValueError, IndexError):

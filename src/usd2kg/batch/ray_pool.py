@@ -82,7 +82,7 @@ class _RayPool:
         self._free: list[Any] = []
         self._running: dict[Any, _Running] = {}
         self.last_problem = ""
-        """Why the last job was lost."""
+        """The reason why the last job was lost."""
 
     @property
     def is_busy(self) -> bool:

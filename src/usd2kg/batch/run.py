@@ -1,4 +1,4 @@
-"""plan_batch and run_batch: which scenes of a batch are still to be built, and building them."""
+"""plan_batch and run_batch: select the scenes of a batch that still need building, and build them."""
 
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass
@@ -21,16 +21,16 @@ DEFAULT_BASE = "https://example.org/"
 
 
 class BatchPlan(NamedTuple):
-    """What a batch has to do."""
+    """The work of a batch."""
 
     jobs: tuple[Job, ...]
-    """Scenes to build, the largest files first: the last ones to end are then short."""
+    """Scenes to build, largest files first, so that the last scenes to finish are short."""
     finished: tuple[Record, ...]
-    """Scenes that are built already."""
+    """Scenes that are already built."""
 
 
 class Built(NamedTuple):
-    """One scene that was built, or could not be."""
+    """One scene that was built or that failed."""
 
     job: Job
     record: Record
@@ -38,7 +38,7 @@ class Built(NamedTuple):
 
 @dataclass(frozen=True)
 class _Place:
-    """Where the outputs go."""
+    """Destinations of the outputs."""
 
     folder: Path
     ending: str
@@ -59,7 +59,7 @@ def plan_batch(
     base: str = DEFAULT_BASE,
     is_again: bool = False,
 ) -> BatchPlan:
-    """Return which scenes are to be built, and which are finished.
+    """Return the scenes to build and the finished scenes.
 
     A scene is finished if it was built with the same options, its file has the same size and time, the layers that it
     refers to have the same size and either the same time or the same content, and its graph has the checksum that it
@@ -112,7 +112,7 @@ def run_batch(
     folder: Path,
     store: Callable[[Job], None] = lambda job: None,
 ) -> Iterator[Built]:
-    """Yield each scene when its record is on disk.
+    """Yield each scene after its record is written to disk.
 
     Args:
         plan: what is to be done.

@@ -77,6 +77,6 @@ def _files_below(folder: Path) -> Iterator[Path]:
 
 
 def _matches(pattern: str) -> set[Path]:
-    # Unlike `Path.glob`, it takes absolute patterns.
+    # Unlike `Path.glob`, `glob.iglob` accepts absolute patterns.
     found = (Path(name).absolute() for name in glob.iglob(pattern, recursive=True))  # noqa: PTH207
     return {path for path in found if path.is_file()}

@@ -1,4 +1,4 @@
-"""Imported once by the process from which workers are forked: they share the memory of what is loaded here."""
+"""Preloaded by the fork server: workers share the memory of the data loaded here."""
 
 from usd2kg.grounding import ObjectView, make_grounder
 from usd2kg.ontology import load_home_tbox, load_places_tbox

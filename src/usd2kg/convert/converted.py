@@ -1,4 +1,4 @@
-"""Converted: the prims that a converter made of a file."""
+"""Converted: the prims that a converter created from a file."""
 
 from dataclasses import dataclass
 from pathlib import Path
@@ -15,13 +15,13 @@ _MAX_REASON = 240
 
 @dataclass(frozen=True)
 class Converted:
-    """A stage in memory, and what a user should know about it."""
+    """A stage in memory, with notes for the user."""
 
     stage: Usd.Stage
     converter: str
     """Name and version of the library that read the file."""
     notes: tuple[str, ...] = ()
-    """What was assumed or left out."""
+    """Assumptions and omissions of the conversion."""
 
 
 def parse_error(path: Path, found: object, expected: str) -> SceneError:

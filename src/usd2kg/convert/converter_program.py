@@ -1,4 +1,4 @@
-"""Convert a file by a program that writes USD, for converters that bring their own OpenUSD.
+"""Convert a file by an external program that writes USD, for converters that bundle their own OpenUSD.
 
 The URDF and MJCF converters depend on `usd-exchange`, which installs a package `pxr` over that of `usd-core`; in one
 environment, the converters fail to start. As programs in an environment of their own they work.
@@ -23,7 +23,7 @@ __all__ = ["run_converter"]
 _WARNING = re.compile(r"^\[Warning\] \[(?P<place>[^\]]*)\] (?P<text>.+)", re.MULTILINE)
 _ERROR_PLACE = re.compile(r"^\s*Error in '[^']*' at line \d+ in file .+? : '?(?:Python runtime error: )?")
 _OWN_ADVICE = "usdex.core.deprecation"
-"""Place of warnings to the authors of the converter."""
+"""Source location of warnings intended for the developers of the converter."""
 _MAX_NOTES = 20
 """Distinct warnings that are passed on; a file with missing meshes has one for each."""
 _MAX_SECONDS = 600
@@ -33,7 +33,7 @@ _MAX_SECONDS = 600
 def run_converter(
     program: str, path: Path, expected: str, arguments: Sequence[str] = (), *, corrected: bytes | None = None
 ) -> Converted:
-    """Return the stage that `program` makes of a file. Textures are left out.
+    """Return the stage that `program` creates from a file. Textures are omitted.
 
     Args:
         program: name of the program on the path, also its package with dashes for underscores.
@@ -94,7 +94,7 @@ def _load(written: Path, path: Path) -> Any:
             f"{path}: its converter wrote a layer that OpenUSD cannot read, expected one of a version up to "
             f"{'.'.join(map(str, Usd.GetVersion()[1:]))}; update usd2kg and usd-core"
         ) from error
-    # Names the temporary folder.
+    # Skip the line: it names the temporary folder.
     layer.documentation = ""
     return layer
 

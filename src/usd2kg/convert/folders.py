@@ -1,4 +1,4 @@
-"""The scene files of a folder: OBJ files that are one scene together, and files of other formats beside them."""
+"""The scene files of a folder: OBJ files, which form one scene, and files of other formats."""
 
 import hashlib
 import os
@@ -13,9 +13,9 @@ __all__ = ["OBJ_ENDING", "FolderFiles", "hash_files", "holds_obj_files", "list_f
 
 OBJ_ENDING = ".obj"
 _MAX_DEPTH = 32
-"""Folders in each other."""
+"""Maximum nesting of folders."""
 _MAX_ENTRIES = 200_000
-"""Files and folders that are looked at; a folder with more is no scene but a disk."""
+"""Maximum number of files and folders to inspect; a larger folder is not a scene."""
 _NOT_CONTENT = frozenset({"__MACOSX"})
 """Folders that archivers add."""
 
@@ -25,7 +25,7 @@ class FolderFiles(NamedTuple):
 
     obj: tuple[Path, ...]
     others: tuple[Path, ...]
-    """Files whose ending is one of those asked for."""
+    """Files with a requested extension."""
 
 
 def list_folder(folder: Path, endings: Iterable[str]) -> FolderFiles:

@@ -67,7 +67,7 @@ def read_prims(path: Path) -> Converted:
 
 
 def _check_compression(path: Path) -> None:
-    """Refuse a file whose triangles trimesh would replace by zeros.
+    """Reject a file whose triangles trimesh would replace by zeros.
 
     Raises:
         SceneError: it requires an extension for compression that is not decoded.
@@ -81,7 +81,7 @@ def _check_compression(path: Path) -> None:
 
 
 def _required_extensions(path: Path) -> frozenset[str]:
-    """Return the extensions that a file requires; none for a file that trimesh will refuse."""
+    """Return the required extensions of a file; none for a file that trimesh will reject."""
     try:
         with path.open("rb") as file:
             header = file.read(_GLB_HEADER.size)

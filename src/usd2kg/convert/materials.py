@@ -11,7 +11,7 @@ __all__ = ["MaterialAuthor", "SurfaceMaterial"]
 
 @dataclass(frozen=True)
 class SurfaceMaterial:
-    """A named material; None for what the source does not state as a constant."""
+    """A named material; a value is None if the source does not state it as a constant."""
 
     name: str
     color: tuple[float, float, float] | None = None

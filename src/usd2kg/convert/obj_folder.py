@@ -25,11 +25,11 @@ __all__ = ["read_prims"]
 
 _EXPECTED = "a folder with an OBJ file for each object"
 _OTHER_ENDINGS = frozenset({*SCENE_ENDINGS, ".fbx", ".dae", ".stl", ".ply", ".3ds", ".blend"})
-"""Files with geometry that the scene lacks; their absence must not go unnoticed."""
+"""Files whose geometry is missing from the scene, which must be reported."""
 _MAX_NAMED = 20
-"""Files that cannot be read, each with a note of its own."""
+"""Files that cannot be read, each with its own note."""
 _MAX_LISTED = 3
-"""Files that a note names as examples."""
+"""Maximum number of example files in a note."""
 _OBJECT_NAME = re.compile(rb"^o[ \t]+(\S[^\r\n]*)", re.MULTILINE)
 
 
@@ -78,7 +78,7 @@ class _FolderWriter:
         self._materials = MaterialAuthor(self._author, self._groups[folder])
 
     def write(self, file: Path) -> None:
-        """Write a file, or keep why it cannot be read."""
+        """Write a file, or record why it cannot be read."""
         try:
             parts = read_parts(file)
         except (SceneError, OSError) as error:
@@ -120,7 +120,7 @@ class _FolderWriter:
             Usd.ModelAPI(part).SetKind(Kind.Tokens.subcomponent)
 
     def notes(self) -> Iterator[str]:
-        """Yield what is left out or assumed."""
+        """Yield notes about omissions and assumptions."""
         yield from self.failures[:_MAX_NAMED]
         more = len(self.failures) - _MAX_NAMED
         if more > 0:

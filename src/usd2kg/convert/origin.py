@@ -1,4 +1,4 @@
-"""Origin: what a converted stage was made from, kept in `customLayerData` of its root layer."""
+"""Origin: the source of a converted stage, kept in `customLayerData` of its root layer."""
 
 from collections.abc import Mapping
 from dataclasses import asdict, dataclass, fields

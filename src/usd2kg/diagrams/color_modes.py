@@ -12,7 +12,7 @@ __all__ = ["ColorMode", "color_scene"]
 
 
 class ColorMode(StrEnum):
-    """What the colour of an object shows."""
+    """The property shown by the colour of an object."""
 
     MATERIAL = "material"
     CLASS = "class"
@@ -26,7 +26,7 @@ class ColorMode(StrEnum):
 def color_scene(
     mode: ColorMode, tbox: TBox, grounding: Grounding, suggestions: Grounding, relations: Sequence[Relation]
 ) -> Coloring:
-    """Return the colours of all objects by a property of theirs.
+    """Return the colours of all objects by one of their properties.
 
     Args:
         mode: class, concept, confidence, room or support.
@@ -50,10 +50,10 @@ def color_scene(
         labels = {iri: grounding.concepts[iri].label for iri in sorted(grounding.concepts)}
         return color_by_group(of_object, labels, of_object, "no concept")
     kinds, none = (("room",), "no room") if mode is ColorMode.ROOM else (("on", "inside"), "not on or in anything")
-    # Later kinds win: what is in a box on a shelf is in the box.
+    # Later kinds win: an object in a box on a shelf is in the box.
     anchor_of = {r.target: r.anchor for kind in kinds for r in relations if r.kind == kind}
     groups = {p.prim_path: anchor_of.get(p.prim_path) for p in predictions}
-    # Rooms may be groups, which are no objects.
+    # Rooms may be groups, which are not objects.
     order = dict.fromkeys([*(path for path in groups if path in anchor_of.values()), *anchor_of.values()])
     labels = {path: path.rpartition("/")[2] for path in order}
     return color_by_group(groups, labels, groups, none)

@@ -41,7 +41,7 @@ class Coloring:
 def color_by_group(
     group_of: Mapping[str, str | None], labels: Mapping[str, str], ranking: Mapping[str, str | None], none: str
 ) -> Coloring:
-    """Return a colour for each of the largest groups; the rest and the objects in no group share another one.
+    """Return a colour for each of the largest groups; all other objects share one colour.
 
     Args:
         group_of: prim path → group; None for an object in no group.
@@ -54,7 +54,7 @@ def color_by_group(
     for path, group in group_of.items():
         members.setdefault(group, []).append(path)
     sizes, order = Counter(ranking.values()), {group: number for number, group in enumerate(labels)}
-    # A group without members any more keeps its colour.
+    # A group that has lost its members keeps its colour.
     ranked = sorted({*members, *sizes} - {None}, key=lambda group: (-sizes[group], order[group or ""]))
     colors = dict(zip(ranked, COLORS.categories, strict=False))
     others = [group for group in ranked if group in members and group not in colors]
@@ -70,7 +70,7 @@ def color_by_group(
 
 
 def color_by_confidence(confidence_of: Mapping[str, float | None]) -> Coloring:
-    """Return a colour for each step of confidence; objects whose grounder gave none have the colour of the rest."""
+    """Return a colour for each confidence band; objects without a confidence have the colour for other objects."""
     steps: list[list[str]] = [[] for _ in CONFIDENCE.lower_bounds]
     unknown = []
     for path, confidence in confidence_of.items():
@@ -92,7 +92,7 @@ def _step_label(index: int) -> str:
 
 
 def color_by_answer(prim_paths: Sequence[str], answer: Collection[str]) -> Coloring:
-    """Return one colour for the objects of an answer and another one for the rest."""
+    """Return one colour for the objects of an answer and another for all other objects."""
     rest = [path for path in prim_paths if path not in answer]
     entry = LegendEntry("in the answer", COLORS.answer, tuple(path for path in prim_paths if path in answer))
     return Coloring((entry, *_rest_entry("other", rest)))

@@ -39,7 +39,7 @@ _OTHER = "other"
 
 @dataclass
 class TreeObject:
-    """An object; its parent is its container, else its supporter, else its whole, else the object it is jointed to."""
+    """An object; its parent is its container, supporter, whole, or jointed object, in this order of preference."""
 
     iri: str
     path: str

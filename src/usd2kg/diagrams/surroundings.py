@@ -70,7 +70,7 @@ def _panel(head: str, objects: Sequence[TreeObject]) -> _Panel:
 
 
 def _cut(lines: Sequence[CardLine]) -> tuple[CardLine, ...]:
-    """Return the first lines, and one that counts the rest."""
+    """Return the first lines, and a line that counts the others."""
     more = len(lines) - SURROUNDINGS.max_lines
     if more <= 0:
         return tuple(lines)

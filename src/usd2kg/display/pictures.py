@@ -1,4 +1,4 @@
-"""Pictures of records: of their stage, or of the boxes that their graph states."""
+"""Pictures of records: of their stage, or of the boxes in their graph."""
 
 import logging
 from collections.abc import Hashable, Mapping
@@ -19,19 +19,19 @@ logger = logging.getLogger(__name__)
 PICTURE_SIZE = (280, 210)
 """Width and height in pixels: 40 kB of PNG for a furnished room."""
 MAX_BOXES = 1_000
-"""Objects of a graph above which none is drawn: drawing more takes seconds."""
+"""Maximum number of objects of a graph with a picture: drawing more takes seconds."""
 _MAX_PREDICTIONS = 20_000
-"""Objects of a grounding above which its stage is not opened for a picture."""
+"""Maximum number of objects of a grounding whose stage is opened for a picture."""
 _MAX_KEPT = 8
 _pictures: dict[tuple[Hashable, ...], bytes | None] = {}
-"""What a picture depends on → PNG, or None where there is no picture."""
+"""Cache key of a picture → PNG; None if there is no picture."""
 
 Pictured = Scene | Grounding | KnowledgeGraph | GraphStore
 
 
 @dataclass(frozen=True)
 class Picture:
-    """A picture with what its colours mean."""
+    """A picture with the legend of its colours."""
 
     png: bytes
     caption: str
@@ -58,7 +58,7 @@ def draw_picture(record: Pictured) -> Picture | None:
 
 
 def _draw_stage(record: Scene | Grounding) -> bytes | None:
-    """Return a picture of a stage; those of the last few are kept, since a notebook shows a scene again and again."""
+    """Return a picture of a stage; the last few are cached, since a notebook shows the same scene repeatedly."""
     key: tuple[Hashable, ...]
     if isinstance(record, Scene):
         key = (record.source, record.content_hash, record.frame, record.time)

@@ -1,4 +1,4 @@
-"""make_view: record → View, what is shown of it."""
+"""make_view: record → View, the displayed content of a record."""
 
 from collections import Counter
 from collections.abc import Iterable, Mapping, Sequence
@@ -21,7 +21,7 @@ from usd2kg.world import World
 __all__ = ["MAX_ROWS", "View", "make_view"]
 
 MAX_ROWS = 20
-"""Rows that are shown of a table."""
+"""Maximum number of displayed table rows."""
 _MAX_LINE = 400
 """Characters of a title or note."""
 _OBJECT_COLUMNS = ("class", "name", "confidence", "size in m", "relations")
@@ -31,7 +31,7 @@ _RELATIONS = {"on": "on", "inside": "in", "attached-to": "attached to", "part-of
 
 @dataclass(frozen=True)
 class View:
-    """What is shown of a record."""
+    """The displayed content of a record."""
 
     title: str
     columns: tuple[str, ...]
@@ -42,7 +42,7 @@ class View:
     notes: tuple[str, ...] = ()
     """Lines below the title."""
     pictured: Pictured | None = None
-    """What to draw; None for no picture."""
+    """The record to draw; None for no picture."""
 
     @property
     def lines(self) -> tuple[str, ...]:
@@ -52,7 +52,7 @@ class View:
 
 @singledispatch
 def make_view(record: object) -> View:
-    """Return what is shown of a record.
+    """Return the displayed content of a record.
 
     Raises:
         TypeError: there is no view of its class.
@@ -189,7 +189,7 @@ def _object_row(result: BuildResult, obj: SceneObject, related: Sequence[str]) -
 
 
 def _related(graph: KnowledgeGraph, targets: set[str], names: Mapping[str, str]) -> dict[str, list[str]]:
-    """Return prim path → what the object is on, in, attached to and part of."""
+    """Return prim path → text of the relations `on`, `in`, `attached to` and `part of` of the object."""
     found: dict[str, list[str]] = {}
     for relation in graph.relations:
         if relation.target in targets and relation.kind in _RELATIONS:

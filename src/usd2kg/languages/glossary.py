@@ -91,7 +91,7 @@ class _FormTable(Mapping[str, Form]):
         return Form(self._entries[number], code // 2, code % 2 == 1)
 
     def entries(self) -> Iterator[Entry]:
-        """Yield each entry that has a form, once; decoding all forms takes far longer."""
+        """Yield each distinct entry with a form, without decoding all forms, which takes far longer."""
         for number in {code // _FORM_CODES for code in self._codes.values()}:
             yield self._entries[number]
 

@@ -1,4 +1,4 @@
-"""Readiness of an ontology for grounding: what it lacks, and which classes to add."""
+"""Readiness of an ontology for grounding: its deficiencies, and classes to add."""
 
 from usd2kg.readiness.check import OntologyReport, check_ontology
 from usd2kg.readiness.suggested_classes import Proposal, SuggestedClass, format_suggestions, suggest_classes

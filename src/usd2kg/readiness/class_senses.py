@@ -76,7 +76,7 @@ def _as_name(text: str) -> str:
 
 
 def find_sense_faults(tbox: TBox, senses: ClassSenses) -> Iterator[Finding]:
-    """Yield the classes that are never an answer, that match only exact words, or whose name another class takes."""
+    """Yield the classes that are never an answer, match only exact words, or lose their name to another class."""
     yield from _non_objects(tbox)
     for cls in tbox.classes:
         answer = senses.answers.get(cls.iri, cls.iri)

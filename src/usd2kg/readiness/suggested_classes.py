@@ -1,4 +1,4 @@
-"""Subclasses that would fit the concepts of scenes whose class is coarse: 39 books that are only artifacts."""
+"""Suggested subclasses for concepts that only have a coarse class in the scenes: 39 books grounded to Artifact."""
 
 import re
 from collections.abc import Iterable, Iterator, Sequence
@@ -34,17 +34,17 @@ class SuggestedClass:
 
     label: str
     concept: Concept | None
-    """What its objects are, if the label is that of the concept."""
+    """The concept of the objects, if the label is that of the concept."""
     parent: ClassIRI
-    """The class that they have now."""
+    """The current class of the objects."""
     objects: tuple[str, ...]
     """Prim paths, in scene order; those of several scenes follow each other."""
     proposals: tuple[Proposal, ...] = ()
-    """Who proposed it; empty if it follows from the concepts."""
+    """The person who proposed the class; empty if it follows from the concepts."""
 
 
 def suggest_classes(groundings: Iterable[Grounding], tbox: TBox) -> list[SuggestedClass]:
-    """Return the concepts of objects that no class of the ontology is named after, with the most objects first.
+    """Return the concepts of objects without a class of that name in the ontology, most frequent first.
 
     Args:
         groundings: of one or several scenes.

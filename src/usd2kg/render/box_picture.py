@@ -1,4 +1,4 @@
-"""draw_boxes: a small picture of boxes, for objects whose geometry is not at hand."""
+"""draw_boxes: a small picture of boxes, for objects without available geometry."""
 
 from collections.abc import Sequence
 from typing import NamedTuple
@@ -19,7 +19,7 @@ _SIDES = np.array([[0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [2, 6, 7, 3], [0, 4
 _TRIANGLES = np.concatenate([_SIDES[:, [0, 1, 2]], _SIDES[:, [0, 2, 3]]]).astype(np.int32)
 """Counter-clockwise seen from outside, of the corners in the order of `_CORNERS`."""
 _ENCLOSED_SHARE = 0.5
-"""Share of the other boxes from which a box that encloses them is not drawn, such as that of a room."""
+"""Fraction of the other boxes above which an enclosing box, such as that of a room, is not drawn."""
 
 
 class ColoredBox(NamedTuple):
@@ -66,6 +66,6 @@ def _count_enclosed(lower: NDArray[np.float64], upper: NDArray[np.float64]) -> N
     counts = np.array(
         [((centers >= low) & (centers <= high)).all(axis=1).sum() for low, high in zip(lower, upper, strict=True)]
     )
-    # Each encloses its own centre.
+    # Subtract the box itself.
     enclosed: NDArray[np.int64] = counts - 1
     return enclosed

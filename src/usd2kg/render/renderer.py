@@ -24,7 +24,7 @@ from usd2kg.scene.stage import captured_diagnostics, open_stage, time_code
 __all__ = ["ObjectColors", "Renderer", "render_object", "render_objects", "render_scene"]
 
 ObjectColors = Mapping[str, Vector]
-"""Prim path → linear RGB, from 0 to 1; `/` is for what is below no other path. Replaces the colours of materials."""
+"""Prim path → linear RGB, 0 to 1, replacing material colours; `/` is for prims below no other path."""
 
 
 def render_object(

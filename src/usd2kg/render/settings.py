@@ -67,7 +67,7 @@ class ViewpointSettings:
 
 @dataclass(frozen=True)
 class CutawaySettings:
-    """What is removed to look into a scene."""
+    """Geometry removed for a view into a scene."""
 
     stray_quantile: float
     stray_distance: float

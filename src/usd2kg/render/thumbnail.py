@@ -1,4 +1,4 @@
-"""draw_thumbnail, draw_stage_thumbnail: a small picture of a scene that was read, if it takes seconds at most."""
+"""draw_thumbnail, draw_stage_thumbnail: a small picture of a scene, unless drawing takes more than seconds."""
 
 from collections.abc import Iterable
 from itertools import islice
@@ -20,7 +20,7 @@ __all__ = ["draw_stage_thumbnail", "draw_thumbnail"]
 
 _MAX_PRIMS = 20_000
 _MAX_TRIANGLES = 200_000
-"""Drawing takes time in proportion, a few seconds at this number."""
+"""Maximum number of triangles; drawing time is proportional, a few seconds at this number."""
 
 
 def draw_thumbnail(scene: Scene, size: Size) -> bytes | None:

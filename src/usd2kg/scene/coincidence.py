@@ -10,7 +10,7 @@ __all__ = ["find_surplus"]
 
 
 def find_surplus(objects: Iterable[SceneObject]) -> frozenset[str]:
-    """Return the prim paths of objects whose own box is that of `LIMITS.max_coincident` objects before them.
+    """Return the prim paths of objects whose own box equals that of at least `LIMITS.max_coincident` earlier objects.
 
     Each pair of objects in one place is a relation, so that thousands of copies that nobody moved apart would be
     millions of relations that say nothing.

@@ -1,4 +1,4 @@
-"""check_expansion: refuse stages whose nested instances stand for more prims than can be read."""
+"""check_expansion: reject stages whose nested instances expand to too many prims."""
 
 from collections import Counter
 from collections.abc import Iterable
@@ -12,7 +12,7 @@ from usd2kg.scene.settings import LIMITS
 __all__ = ["check_expansion"]
 
 _READ = Usd.PrimIsActive & Usd.PrimIsDefined & ~Usd.PrimIsAbstract
-"""The prims that are read; others are never expanded."""
+"""Predicate of the prims to read; other prims are never expanded."""
 
 
 def check_expansion(stage: Any, source: str) -> None:

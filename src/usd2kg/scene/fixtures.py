@@ -1,4 +1,4 @@
-"""Fixtures: objects that are built into a rigid body, like the tap of a sink's cabinet."""
+"""Fixtures: objects built into a rigid body, like the tap of a sink cabinet."""
 
 from usd2kg.knowledge import word_set
 from usd2kg.scene.outline import PrimRecord

@@ -75,7 +75,7 @@ def _drawn(instancer: Any, time: Usd.TimeCode) -> list[bool]:
     """Return for each copy whether it is active and visible."""
     count = len(_indices(instancer, time))
     mask = list(UsdGeom.PointInstancer(instancer).ComputeMaskAtTime(time))
-    # An empty mask means that all are drawn. A mask of another length comes from malformed ids.
+    # An empty mask means that all copies are drawn. A mask of another length results from malformed ids.
     return mask if len(mask) == count else [True] * count
 
 

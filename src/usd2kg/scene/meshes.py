@@ -59,7 +59,7 @@ class _Look(NamedTuple):
 
     @property
     def is_authored(self) -> bool:
-        """Whether a material says what it looks like."""
+        """Whether the material defines the appearance."""
         return self.color is not None or self.mapping is not None
 
 
@@ -197,7 +197,7 @@ class MeshReader:
         matrix = self.matrix(prim, space)
         if mesh is None or not len(mesh.triangles):
             return
-        # A factor of 1e30 and more has points beyond all limits, and a determinant that is not a number.
+        # A scale of 1e30 or more puts points beyond all limits and makes the determinant NaN.
         if not (np.abs(matrix) < MAX_COORDINATE).all():
             self.note(prim, "its transform is not finite", "transform")
             return
@@ -303,7 +303,7 @@ class MeshReader:
             yield whole, None if rest.all() else rest
 
     def _with_fallback(self, look: _Look, prim: Any, mesh: LocalMesh) -> _Look:
-        """Return the look of some faces; where only its texture has a colour, with the display colour of the mesh."""
+        """Return the look of some faces; if only a texture gives the colour, with the display colour of the mesh."""
         if look.color is not None:
             return look
         return look._replace(color=self._display_colors(prim, int(mesh.face_of[-1]) + 1)[0][0])
@@ -374,6 +374,6 @@ def _rgb(color: Any) -> Vector:
 
 def determinant(matrix: Points) -> float:
     """Return the determinant of the linear part of a transform (4, 4); negative if it inverts the winding."""
-    # That of numpy takes ten times as long for one small matrix.
+    # numpy.linalg.det takes ten times as long for one small matrix.
     (a, b, c), (d, e, f), (g, h, i) = matrix[:3, :3].tolist()
     return float(a * (e * i - f * h) - b * (d * i - f * g) + c * (d * h - e * g))

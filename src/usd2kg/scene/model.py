@@ -212,7 +212,7 @@ class SceneObject:
     parent_path: str | None
     """The nearest object above this one, or None."""
     box: Box | None
-    """World AABB of all geometry at and below the prim, nested objects included, else of its `extentsHint`; or None."""
+    """World AABB of all geometry at and below the prim with nested objects, otherwise of its `extentsHint`; or None."""
     own_box: Box | None
     """The same without nested objects."""
     part_boxes: tuple[Box, ...]
@@ -293,7 +293,7 @@ class Scene(RichDisplay):
     frame: StageFrame
     """Authored units and up axis."""
     time: float | None
-    """Requested time code, else the start time code of the stage; None if it has no authored time range."""
+    """Requested time code, otherwise the start time code of the stage; None without an authored time range."""
     prim_count: int
     """Number of traversed prims, including instance proxies."""
     objects: tuple[SceneObject, ...]
@@ -311,7 +311,7 @@ class Scene(RichDisplay):
     files: tuple[StageFile, ...] = field(default=(), compare=False, repr=False)
     """The layers in use, sorted by path; empty for other formats. Textures and missing files are not among them."""
     surfaces: Mapping[str, Surface] = field(default_factory=dict, compare=False, repr=False)
-    """Prim path → triangles, for objects near others whose box does not say it all; not for axis-aligned boxes."""
+    """Prim path → triangles, for objects near others whose box is only an approximation, not for axis-aligned boxes."""
 
     @cached_property
     def by_path(self) -> Mapping[str, SceneObject]:

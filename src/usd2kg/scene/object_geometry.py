@@ -72,7 +72,7 @@ class GeometryReader:
             diagnostics: receives a note for each gprim that is left out because its data are broken.
         """
         self.meshes: list[ColoredMesh] = []
-        """What has been read so far."""
+        """The data read so far."""
         self.outermost = tuple(obj.prim_path for obj in scene.objects if obj.parent_path is None)
         """Prim paths of the objects in no other object, in scene order."""
         self._stage = opened.stage
@@ -92,11 +92,11 @@ class GeometryReader:
         return tuple(self._textures)
 
     def count(self, prim_path: str) -> int:
-        """Return about how many triangles an outermost object has, without reading its points."""
+        """Return an estimate of the triangles of an outermost object, without reading its points."""
         return self._triangles.count(prim_path.partition("[")[0])
 
     def count_outside(self) -> int:
-        """Return about how many triangles are outside any object."""
+        """Return an estimate of the triangles outside any object."""
         return self._triangles.count("/", without=frozenset(self.outermost))
 
     def read(self, prim_paths: Iterable[str]) -> list[MeshPlacement]:

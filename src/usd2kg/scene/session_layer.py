@@ -1,4 +1,4 @@
-"""Layers in memory below the session layer of an open stage, each with one kind of content, that go as they came."""
+"""Removable in-memory sublayers of the session layer of an open stage, each with one kind of content."""
 
 from collections.abc import Iterator, Mapping
 
@@ -13,7 +13,7 @@ _MARK = "usd2kg"
 
 
 def mark_layer(layer: Sdf.Layer, content: str, provenance: Mapping[str, str]) -> None:
-    """Note in the metadata of a layer that usd2kg wrote it, and what it contains."""
+    """Mark a layer in its metadata as written by usd2kg, with the kind of its content."""
     layer.customLayerData = {**layer.customLayerData, _MARK: {"content": content, **provenance}}
 
 
@@ -52,7 +52,7 @@ def add_to_session(stage: Usd.Stage, opinions: Sdf.Layer, content: str) -> None:
 
 
 def remove_from_session(stage: Usd.Stage, content: str) -> bool:
-    """Remove what `add_to_session` added with this content; return whether there was any."""
+    """Remove the layer that `add_to_session` added with this content; return whether there was one."""
     session = stage.GetSessionLayer()
     found = [] if session is None else list(_layers_with(session, content))
     for layer in found:
@@ -66,6 +66,6 @@ def remove_from_session(stage: Usd.Stage, content: str) -> bool:
 def _layers_with(session: Sdf.Layer, content: str) -> Iterator[Sdf.Layer]:
     for path in session.subLayerPaths:
         layer = Sdf.Layer.Find(path)
-        # A label file that someone added to the session is not ours to remove.
+        # Do not remove a label file that the user added to the session.
         if layer is not None and layer.anonymous and layer.customLayerData.get(_MARK, {}).get("content") == content:
             yield layer

@@ -63,7 +63,7 @@ class SolidSettings:
 
 @dataclass(frozen=True)
 class MeshSettings:
-    """Limits on what is drawn."""
+    """Limits on rendering."""
 
     max_display_colors: int
     max_copies: int

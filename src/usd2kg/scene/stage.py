@@ -72,7 +72,7 @@ class OpenedStage:
 
     @cached_property
     def contents(self) -> "_StageContents":
-        """Hash and files of all layers in use; all files are read when it is first asked for."""
+        """Hash and files of all layers in use; the files are read on first access."""
         return _hash_layers(self.stage)
 
     @property
@@ -82,7 +82,7 @@ class OpenedStage:
 
 
 class _StageContents(NamedTuple):
-    """What a stage was composed of."""
+    """The layers that a stage was composed of."""
 
     hash: str
     files: tuple[StageFile, ...]

@@ -1,4 +1,4 @@
-"""The surfaces of the objects that others are near: the relations between them depend on more than their boxes."""
+"""Surfaces of objects with near neighbours, whose relations depend on more than their boxes."""
 
 from collections.abc import Sequence
 from typing import Any
@@ -77,7 +77,7 @@ def _vector(values: Array) -> Vector:
 
 
 class SurfaceReader:
-    """Reads the surfaces of objects; what instances share is read once, equal meshes are triangulated and kept once."""
+    """Reads the surfaces of objects; prototypes are read once, and equal meshes are triangulated and stored once."""
 
     def __init__(self, boxes: BoxReader, frame: StageFrame) -> None:
         self._boxes = boxes

@@ -23,11 +23,11 @@ class Texture(NamedTuple):
     name: str
     """The path as it is authored, for messages."""
     file: str
-    """Where OpenUSD's asset resolver finds it, possibly inside a package; empty if it is missing."""
+    """Path resolved by OpenUSD's asset resolver, possibly inside a package; empty if the file is missing."""
     wrap: tuple[str, str]
-    """How it goes on beyond its borders along u and v: `repeat`, `mirror`, `clamp` or `black`."""
+    """Wrap modes along u and v: `repeat`, `mirror`, `clamp` or `black`."""
     scale: Vector
-    """Factor of its linear RGB."""
+    """Scale of the linear RGB."""
 
 
 class TextureMapping(NamedTuple):

@@ -1,4 +1,4 @@
-"""TriangleCounter: about how many triangles are below a prim, without reading points."""
+"""TriangleCounter: an estimate of the number of triangles below a prim, without reading points."""
 
 from collections.abc import Container
 from typing import Any
@@ -10,11 +10,11 @@ from usd2kg.scene.settings import MESHES
 __all__ = ["TriangleCounter"]
 
 _SOLID = 200
-"""Triangles of a sphere or cylinder, about."""
+"""Approximate number of triangles of a sphere or cylinder."""
 
 
 class TriangleCounter:
-    """Counts triangles; what instances share is counted once."""
+    """Counts triangles; the triangles of a prototype are counted once."""
 
     def __init__(self, stage: Any, time: Usd.TimeCode) -> None:
         self._stage = stage

@@ -15,7 +15,7 @@ Array = NDArray[np.float64]
 Indices = NDArray[np.int64]
 
 _EDGE_TOLERANCE = 1e-4
-"""In barycentric coordinates: keeps a line through a shared edge from falling between two triangles."""
+"""Tolerance in barycentric coordinates, so that a line through a shared edge does not miss both triangles."""
 _MIN_PROJECTION = 1e-9
 """Share of the squared extent below which a projected triangle has no area: the line runs along it."""
 _CHUNK = 1 << 18
@@ -108,7 +108,7 @@ def _spans(
 
 
 class _Triangles(NamedTuple):
-    """What a crossing needs to know of triangles, a column for each number: gathering rows of a matrix is slower."""
+    """Triangle data for crossings, in one array per number: gathering rows of a matrix is slower."""
 
     origin: tuple[Array, Array, Array]
     """A corner: along the axis and the two others."""
@@ -128,7 +128,7 @@ class _Triangles(NamedTuple):
         is_wide = np.abs(area) > _MIN_PROJECTION * ((u_rows * u_rows).sum(axis=1) + (v_rows * v_rows).sum(axis=1))
         normals = np.cross(u_rows, v_rows)
         with np.errstate(invalid="ignore"):
-            # Only triangles without area, which nothing crosses, have no normal.
+            # Only triangles without area have no normal, and no line crosses them.
             faces = normals[:, axes[0]] / np.sqrt((normals * normals).sum(axis=1))
         return cls(origin, u, v, np.where(is_wide, area, 0.0), faces)
 

@@ -1,4 +1,4 @@
-"""Shell: the boxes around the pieces of a surface, such as the walls of a flat in one mesh."""
+"""Shell: boxes around the parts of a surface, such as the walls of a flat in one mesh."""
 
 from collections.abc import Iterator
 from itertools import permutations
@@ -44,7 +44,7 @@ def shell_boxes(surface: Surface) -> list[Corners]:
         blocks = min((list(_blocks(cells.is_met, order)) for order in permutations(range(3))), key=len)
         if len(blocks) <= SHELL.max_blocks:
             break
-        # Merging takes the cube of their number.
+        # Merging takes cubic time.
         cell *= 2
     boxes = _merged([_box_of(cells, block) for block in blocks], cell)
     whole = _joined(boxes)

@@ -1,4 +1,4 @@
-"""Angles between the sides of a thing as a viewer sees it and the directions to other things."""
+"""Angles between the sides of an object as seen by a viewer and the directions to other objects."""
 
 import numpy as np
 from numpy.typing import NDArray

@@ -45,7 +45,7 @@ class _WorldTriangles(NamedTuple):
 
 
 class SurfaceCache:
-    """The triangles of the surfaces that were used last, which bounds memory: a scene shares those of its instances."""
+    """LRU cache of the triangles of surfaces, which bounds memory."""
 
     def __init__(self, max_triangles: int = _MAX_TRIANGLES) -> None:
         self._max_triangles = max_triangles
@@ -122,7 +122,7 @@ def turned_outward(piece: SurfacePiece) -> NDArray[np.int32]:
 
 
 def is_box(corners: Array) -> bool:
-    """Return whether triangles (m, 3, 3) are the six faces of an axis-aligned box, so that its corners say it all."""
+    """Return whether triangles (m, 3, 3) are the six faces of an axis-aligned box, which its corners fully describe."""
     if not 0 < len(corners) <= _MAX_BOX_POINTS:
         return False
     low, high = corners.min(axis=(0, 1)), corners.max(axis=(0, 1))

@@ -16,7 +16,7 @@ Array = NDArray[np.float64]
 Indices = NDArray[np.int64]
 
 _SOLID = np.uint8(255)
-"""Water level of a voxel that no water passes."""
+"""Water level of a voxel impermeable to water."""
 _CHUNK = 1 << 19
 """Cells or samples processed at a time, which bounds memory."""
 _EDGE_TOLERANCE = 1e-9

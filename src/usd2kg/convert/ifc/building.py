@@ -23,7 +23,7 @@ _EXPECTED = "an IFC file (2x3, 4 or 4.3) in the STEP format"
 _SPATIAL = ("IfcSpatialElement", "IfcSpatialStructureElement")
 """Spatial elements: since IFC 4, and in IFC 2x3."""
 _WRITTEN = (*_SPATIAL, "IfcElement", "IfcProxy")
-"""Classes whose instances are written even if the project does not lead to them; parts after what contains them."""
+"""Classes whose instances are written even if unreachable from the project; wholes before parts."""
 
 
 def read_prims(path: Path) -> Converted:
@@ -46,7 +46,7 @@ def read_prims(path: Path) -> Converted:
 
 
 def _check_structure(path: Path, model: Any) -> None:
-    """Refuse what IfcOpenShell would tessellate indefinitely: a GlobalId that is no text, a whole that is its own part.
+    """Reject a file that IfcOpenShell would never finish: a GlobalId that is not text, a whole that is its own part.
 
     Raises:
         SceneError: the file has one.
@@ -143,7 +143,7 @@ class _BuildingWriter:
             is_group = _is_any(entity, _SPATIAL) and not entity.is_a("IfcSpace")
             path = self._write_entity(entity, container, above, in_element)
             if entity.is_a("IfcSpace"):
-                # A component contains no components: what is in a room is beside it.
+                # A component must not contain components, so the contents of a room are its siblings.
                 below = [(part, entity, above, False) for part in (*_parts(entity), *_contained(entity))]
             else:
                 below = [(part, None, path, not is_group) for part in (*_parts(entity), *_contained(entity))]
@@ -191,7 +191,7 @@ class _BuildingWriter:
         return self._author.define_mesh(path, "body", shape.mesh)
 
     def _write_room(self, prim: Usd.Prim, shape: Shape | None) -> None:
-        """Write the box of a room, and its solid as a guide: it would hide and touch what is in the room."""
+        """Write the box of a room, and its solid as a guide, since it would hide and touch the contents of the room."""
         if shape is None:
             return
         mesh = self._write_mesh(prim, shape)

@@ -1,4 +1,4 @@
-"""What an IFC file states about an entity apart from its geometry: name, kind of thing, identifiers, properties."""
+"""Metadata of an IFC entity: name, kind, identifiers, properties."""
 
 from collections.abc import Mapping
 from typing import Any
@@ -20,7 +20,7 @@ def name_of(entity: Any) -> str:
 
 
 def kind_word(entity: Any) -> str | None:
-    """Return the words for the kind of thing: by its predefined type, else by its class; None if that says nothing."""
+    """Return the words for the kind of an entity, from its predefined type or its class; None if both are generic."""
     import ifcopenshell.util.element  # noqa: PLC0415
 
     named = _PREDEFINED_TYPES.get(ifcopenshell.util.element.get_predefined_type(entity) or "")

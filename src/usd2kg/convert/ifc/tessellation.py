@@ -13,7 +13,7 @@ from usd2kg.srgb import linear_from_srgb
 __all__ = ["NOT_PHYSICAL", "Shape", "instances_of", "tessellate"]
 
 NOT_PHYSICAL = ("IfcFeatureElementSubtraction", "IfcAnnotation", "IfcGrid", "IfcVirtualElement", "IfcPort")
-"""Classes without a physical thing of their own: openings are cut out of walls, the others are not solids."""
+"""Classes that are not physical objects: openings are cut out of walls, the others are not solids."""
 
 
 class Shape(NamedTuple):
@@ -31,7 +31,7 @@ def tessellate(model: Any) -> Iterator[tuple[int, Shape]]:
 
     classes = {name for name in NOT_PHYSICAL if instances_of(model, name) is not None}
     settings = ifcopenshell.geom.settings()
-    # Only colours that the file states.
+    # Use only colours stated in the file.
     settings.set("apply-default-materials", False)
     iterator = ifcopenshell.geom.iterator(settings, model, os.cpu_count() or 1, exclude=sorted(classes))
     is_open = iterator.initialize()

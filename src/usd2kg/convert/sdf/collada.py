@@ -1,4 +1,4 @@
-"""What trimesh does not pass on from a COLLADA file: the unit, and the geometries of named nodes."""
+"""Facts of a COLLADA file that trimesh drops: the unit, and the geometries of named nodes."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
@@ -21,14 +21,14 @@ class ColladaFacts:
 
 
 class _Open(NamedTuple):
-    """An element whose end is not yet read."""
+    """An open element, whose end tag has not been read."""
 
     names: tuple[str, ...] = ()
     """Name and id, if it is a node."""
     node: ColladaNode | None = None
-    """It, or the innermost node around it."""
+    """The element itself or its innermost enclosing node."""
     is_in_scene: bool = False
-    """Whether it is a visual scene, or in one."""
+    """Whether the element is a visual scene or inside one."""
 
 
 def read_collada(path: Path) -> ColladaFacts:

@@ -1,4 +1,4 @@
-"""How often the nodes of a COLLADA file repeat each other by `instance_node`."""
+"""Expansion count of the nodes of a COLLADA file, which repeat each other by `instance_node`."""
 
 from collections.abc import Iterable
 from dataclasses import dataclass, field
@@ -9,9 +9,9 @@ from usd2kg.convert.sdf.xml_tree import XmlError
 __all__ = ["ColladaNode", "check_nodes"]
 
 _MAX_PARTS = 10_000
-"""Nodes and geometries of the scenes of a file, each as often as it is repeated."""
+"""Nodes and geometries of the scenes of a file, counted with repetitions."""
 _MAX_DEPTH = 100
-"""Nesting of nodes, as that of elements; trimesh and pycollada descend by recursion."""
+"""Maximum nesting of nodes, as for elements; trimesh and pycollada recurse."""
 
 
 @dataclass(eq=False)
@@ -21,16 +21,16 @@ class ColladaNode:
     id: str
     line: int
     is_root: bool = False
-    """Whether it is directly in a visual scene."""
+    """Whether the node is a child of a visual scene."""
     geometries: int = 0
-    """Number of geometries and controllers that are directly in it."""
+    """Number of geometries and controllers directly in the node."""
     children: list["ColladaNode"] = field(default_factory=list)
     instances: list[str] = field(default_factory=list)
-    """Ids of the nodes that it repeats."""
+    """Ids of the nodes that this node instantiates."""
 
 
 def check_nodes(nodes: Iterable[ColladaNode]) -> None:
-    """Refuse the nodes of a file if a parser that follows each `instance_node` would hardly come to an end.
+    """Reject a file if following each `instance_node` would take practically forever.
 
     Raises:
         XmlError: a node contains itself, they are nested more than 100 deep, or the scenes have more than 10,000
@@ -51,7 +51,7 @@ class _Extent(NamedTuple):
     parts: int = 0
     """Nodes and geometries."""
     depth: int = 0
-    """Nodes in each other."""
+    """Depth of nested nodes."""
 
 
 class _Counter:
@@ -79,12 +79,12 @@ class _Counter:
         depth = 1 + max((extent.depth for extent in inner), default=0)
         self._check_depth(node, depth)
         self._open.remove(id(node))
-        # The numbers grow by powers.
+        # The counts grow exponentially.
         found = self._extents[id(node)] = _Extent(min(parts, _MAX_PARTS + 1), depth)
         return found
 
     def _extent_of_id(self, name: str) -> _Extent:
-        """Return the greatest extent of the nodes with an id: which of them a parser takes is not known."""
+        """Return the largest extent of the nodes with an id, since the choice of a parser is unknown."""
         found = self._extents_by_id.get(name)
         if found is None:
             extents = [self.extent(node) for node in self._by_id.get(name, ())]

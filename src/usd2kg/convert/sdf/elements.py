@@ -40,7 +40,7 @@ def read_link(element: XmlElement, path: Path, notes: Notes) -> SdfLink:
         element.name(),
         read_pose(element, path, notes),
         tuple(_visuals(element, path, notes)),
-        # A mass of 0 means that a simulator may not move the link, not that it weighs nothing.
+        # A mass of 0 means that a simulator must not move the link, not that it is massless.
         mass if mass is not None and mass > 0 else None,
         read_pose(inertial, path, notes) if inertial is not None and has_center else None,
     )
@@ -63,7 +63,7 @@ def _visuals(link: XmlElement, path: Path, notes: Notes) -> Iterator[Visual]:
 
 
 def read_axis(joint: XmlElement, version: int, path: Path, notes: Notes) -> Axis | None:
-    """Return the first axis of a joint; None without one. `version` is the second number of that of SDFormat."""
+    """Return the first axis of a joint; None without one. `version` is the minor version of SDFormat 1."""
     element = joint.find("axis")
     if element is None:
         return None
@@ -104,7 +104,7 @@ def skin_of(actor: XmlElement, path: Path, notes: Notes) -> SdfLink | None:
 
 
 def first_waypoint(actor: XmlElement, path: Path, notes: Notes) -> Pose | None:
-    """Return where an actor starts to walk; None if its script does not say."""
+    """Return the first waypoint of an actor; None if its script has none."""
     script = actor.find("script")
     trajectory = None if script is None else script.find("trajectory")
     waypoint = None if trajectory is None else trajectory.find("waypoint")

@@ -22,14 +22,14 @@ class _Entry(NamedTuple):
     matrix: Matrix
     relative_to: str
     attached_to: str | None
-    """None for a link, which is what others are attached to."""
+    """None for a link, to which other frames are attached."""
 
 
 class Scope:
     """The named frames of a model or world."""
 
     def __init__(self, owner: Model | SdfWorld, notes: Notes, path: Path) -> None:
-        """Collect the frames of `owner`, which is stated in the file `path`."""
+        """Collect the frames of `owner`, defined in the file `path`."""
         self.root = WORLD_FRAME if isinstance(owner, SdfWorld) else MODEL_FRAME
         self._scopes = {id(model): Scope(model, notes, model.path) for model in owner.models}
         self._children = {model.name: self._scopes[id(model)] for model in reversed(owner.models)}
@@ -99,7 +99,7 @@ class Scope:
         return start
 
     def place(self, pose: Pose, default: str) -> Matrix:
-        """Return a pose in the frame of the model or world; `default` is what it is relative to if it does not say."""
+        """Return a pose in the frame of the model or world; `default` is its reference frame if it names none."""
         return self.pose_or_root(pose.relative_to or default) @ pose.matrix
 
     def place_model(self, model: Model) -> Matrix:

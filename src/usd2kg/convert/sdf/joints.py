@@ -35,7 +35,7 @@ def define_joint(
     to_world: Matrix,
     notes: Notes,
 ) -> None:
-    """Write a joint below the path `parent`; it is left out, with a note, if its links are not there.
+    """Write a joint below the path `parent`; it is omitted, with a note, if its links are missing.
 
     Args:
         author: author of the stage.

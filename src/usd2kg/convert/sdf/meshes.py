@@ -30,9 +30,9 @@ class MeshPart(NamedTuple):
     name: str
     geometry: "trimesh.Trimesh"
     matrix: Matrix
-    """To the frame of the file in metres. As in Gazebo, that is not turned, whichever axis the file says is up."""
+    """Transform to the frame of the file in metres. As in Gazebo, the up axis of the file is ignored."""
     nodes: frozenset[str]
-    """Names that a submesh may have."""
+    """Accepted names of a submesh."""
 
 
 class MeshFiles:
@@ -57,7 +57,7 @@ class MeshFiles:
                 found = error
             self._parts[path] = found
         if isinstance(found, SceneError):
-            # An exception that is raised again would keep the frames of each time.
+            # Re-raising the same exception would keep the stack frames of each attempt alive.
             raise found.with_traceback(None)
         return found
 

@@ -27,6 +27,6 @@ class XmlFiles:
                 found = error
             self._roots[path] = found
         if isinstance(found, XmlError):
-            # An exception that is raised again would keep the frames of each time.
+            # Re-raising the same exception would keep the stack frames of each attempt alive.
             raise found.with_traceback(None)
         return found
