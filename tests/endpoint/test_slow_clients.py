@@ -174,4 +174,4 @@ def test_a_period_has_a_few_messages_and_their_number():
     assert [rate.filter(record) for record in records[:5]] == [True, True, False, False, False]
     now[0] = 61
     assert rate.filter(records[5])
-    assert records[5].getMessage() == "odd (and 3 messages before it)"
+    assert records[5].getMessage() == "odd (3 earlier messages suppressed)"

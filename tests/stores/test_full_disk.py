@@ -58,7 +58,7 @@ def test_a_graph_is_removed_and_the_interrupted_load_given_up(
     fill_disk(monkeypatch)
     store.remove(small.iri)
     assert {graph.iri for graph in store.graphs()} == {other.iri}
-    assert f"gives up an interrupted load; load <{other.iri}> again" in caplog.text
+    assert f"discarded an interrupted load; load <{other.iri}> again" in caplog.text
 
 
 def test_removing_uses_the_reserve_before_it_gives_up_a_load(

@@ -1,4 +1,4 @@
-"""The built pages, see `web/`: their files by URL path."""
+"""Files of the built web pages (see `web/`) by URL path."""
 
 from importlib.resources import files
 from importlib.resources.abc import Traversable
@@ -12,7 +12,7 @@ _POLICY = (
     "default-src 'none'; script-src 'self'; style-src 'self'; img-src 'self' data: blob:; connect-src 'self' blob:; "
     "font-src 'self'; base-uri 'none'; form-action 'none'; frame-ancestors 'none'"
 )
-"""Content-Security-Policy of the page: only its own files."""
+"""Content-Security-Policy of the page: same-origin files only."""
 
 _TYPES = {
     ".html": "text/html; charset=utf-8",
@@ -25,7 +25,7 @@ _TYPES = {
 
 
 _HASHED = "/assets/"
-"""Files below have the hash of their content in their name."""
+"""Path prefix of files with a content hash in their names."""
 
 
 class AppFile(NamedTuple):
@@ -42,7 +42,7 @@ class AppFile(NamedTuple):
 
 
 def read_app_files(page: str) -> dict[str, AppFile]:
-    """Return URL path → file of a page, which is at `/`. Only these are served: no request reaches another file.
+    """Return URL path → file of a page, which is at `/`. No other files are served.
 
     Args:
         page: `index.html`, the studio, or `query.html`, the query page of the endpoint.

@@ -46,7 +46,7 @@ _NO_PAGE = (
 
 
 class RefusedRequestError(Exception):
-    """A request that is refused, with its HTTP status and a message."""
+    """A rejected request, with its HTTP status and a message."""
 
     def __init__(self, status: int, text: str) -> None:
         super().__init__(text)
@@ -71,13 +71,13 @@ def make_app(
     Args:
         pool: the workers that answer queries.
         limits: limits on each request.
-        connections: the open connections, for the budget of answers that wait for clients.
-        files: the query page, by URL path; without files, `/` says how to get it.
+        connections: the open connections, for the budget of unsent answers.
+        files: the query page by URL path; without files, `/` explains how to build it.
         title: heading of the page.
         graphs: IRIs of the named graphs.
-        examples: queries that the page offers.
+        examples: example queries on the page.
         when_ready: called once all workers have started.
-        hosts: host names that are served in addition to localhost and IP addresses.
+        hosts: host names to accept in addition to localhost and IP addresses.
         origins: origins whose pages may send queries, such as https://my.lab, or *.
     """
     about = {
@@ -152,7 +152,7 @@ async def _answer(
     if header["status"] != 200:
         raise RefusedRequestError(header["status"], body.decode())
     if not connections.can_hold(len(body)):
-        raise RefusedRequestError(503, "too many answers wait for clients that read slowly; try again in a moment")
+        raise RefusedRequestError(503, "too many answers are waiting for slow clients; try again in a moment")
     milliseconds = 1000 * (time.perf_counter() - start)
     charset = "; charset=utf-8" if header["type"].startswith("text/") else ""
     headers = {
@@ -167,7 +167,7 @@ async def _answer(
 
 
 async def _read_request(request: Request, limits: EndpointLimits) -> dict[str, Any] | None:
-    """Return the request for a worker; None if there is no query, which asks for the service description."""
+    """Return the request for a worker; None if there is no query, which requests the service description."""
     fields = parse_qsl(request.url.query, keep_blank_values=True)
     if request.method == "POST":
         body = await _read_body(request, limits.body_bytes)
@@ -223,7 +223,7 @@ def _describe(request: Request) -> Response:
     media_type = negotiate(accept, (*GRAPH_TYPES, "text/html"))
     if media_type == "text/html":
         return RedirectResponse("/", 303)
-    # Guard has checked the host; NamedNode escapes the rest.
+    # Guard has validated the host; NamedNode escapes the rest.
     endpoint = str(ox.NamedNode(str(request.url.replace(query=""))))
     found = ox.Store().query(_DESCRIPTION.replace("ENDPOINT", endpoint))
     assert isinstance(found, ox.QueryTriples), "the description is a CONSTRUCT"

@@ -62,7 +62,7 @@ class BoundedQueries:
         self._thread.join()
         self._loop.close()
         with suppress(OSError):
-            # Some systems release the files of a killed process only after a moment.
+            # Some systems release the files of a killed process with a delay.
             self._temporary.cleanup()
 
     def __enter__(self) -> Self:

@@ -1,4 +1,4 @@
-"""BoundedServer: uvicorn, protected from clients that are slow, many, or both."""
+"""BoundedServer: uvicorn with protection against slow or numerous clients."""
 
 import asyncio
 import logging
@@ -17,7 +17,7 @@ __all__ = ["BoundedServer"]
 
 
 class BoundedServer(uvicorn.Server):
-    """An HTTP server with limits on connections, times and held answers, which stops within `shutdown_s`."""
+    """An HTTP server with limits on connections, times and unsent answers, which stops within `shutdown_s`."""
 
     def __init__(
         self, app: Starlette, connections: Connections, shutdown_s: int, limits: HttpServerLimits = HTTP_LIMITS
@@ -42,7 +42,7 @@ class BoundedServer(uvicorn.Server):
             logging.getLogger(name).addFilter(_RateFilter(limits.log_lines, limits.log_period_s))
 
     async def shutdown(self, sockets: list[socket.socket] | None = None) -> None:
-        """Stop; what clients have not taken in time is dropped."""
+        """Stop; answers that clients have not read in time are dropped."""
         timer = asyncio.get_running_loop().call_later(self._shutdown_s, self._connections.abort_all)
         try:
             await super().shutdown(sockets)
@@ -52,7 +52,7 @@ class BoundedServer(uvicorn.Server):
 
 
 class _RateFilter(logging.Filter):
-    """Passes some records of a logger in each period, and states how many it dropped."""
+    """Rate-limits the records of a logger, and reports how many were dropped."""
 
     def __init__(self, most: int, period_s: float, clock: Callable[[], float] = time.monotonic) -> None:
         super().__init__()
@@ -67,6 +67,6 @@ class _RateFilter(logging.Filter):
             dropped = self._count - self._most
             self._start, self._count = now, 0
             if dropped > 0:
-                record.msg, record.args = f"{record.getMessage()} (and {dropped} messages before it)", ()
+                record.msg, record.args = f"{record.getMessage()} ({dropped} earlier messages suppressed)", ()
         self._count += 1
         return self._count <= self._most

@@ -12,7 +12,7 @@ class EndpointLimits:
     seconds: float = 10.0
     """Running time of one query."""
     rows: int = 10_000
-    """Rows or triples of one answer; the rest is cut."""
+    """Rows or triples of one answer; further ones are cut off."""
     body_bytes: int = 1 << 20
     """Size of one request."""
     memory_mib: int = 1024
@@ -20,10 +20,10 @@ class EndpointLimits:
     workers: int = 2
     """Queries that run at the same time."""
     queued_per_worker: int = 32
-    """Queries that wait for each worker; further ones are refused."""
+    """Waiting queries per worker; further ones are rejected."""
     answer_bytes: int = 64 << 20
-    """Size of one SELECT result; the rest is cut."""
+    """Size of one SELECT result; the rest is cut off."""
     orphan_grace_s: float = 5.0
-    """Seconds beyond `seconds` after which a worker terminates itself, in case its server is gone."""
+    """Seconds beyond `seconds` after which a worker terminates itself, in case the server has died."""
     shutdown_s: int = 3
     """Seconds that running requests have to finish when the server stops."""

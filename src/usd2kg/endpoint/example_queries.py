@@ -24,7 +24,7 @@ SELECT ?c (COUNT(*) AS ?n) WHERE {
 } GROUP BY ?c ORDER BY DESC(?n) ?c LIMIT 1"""
 _POSITION = "SELECT ?center WHERE {{ {object} (soma:hasShape/dul:hasRegion)?/u2k:boxCenter ?center }} LIMIT 1"
 _FIRST = "count"
-"""Id of the question that the page opens with; every graph answers it."""
+"""Id of the initial question on the page; every graph answers it."""
 
 _Term = ox.NamedNode | ox.Literal
 
@@ -53,7 +53,7 @@ def make_examples(store: ox.Store) -> tuple[ExampleQuery, ...]:
 
 
 def _fill(store: ox.Store, question: Question, terms: Mapping[str, _Term | None]) -> ExampleQuery | None:
-    """Return a question with each parameter replaced by a term; None if the graph lacks what it asks about."""
+    """Return a question with each parameter replaced by a term; None if the graph has no suitable term."""
     if question.example:
         best = _first(store, _BEST.format(pattern=question.example))
         if best is None:

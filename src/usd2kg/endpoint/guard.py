@@ -18,7 +18,7 @@ _HEADERS = {
     "Cache-Control": "no-store",
     "Content-Security-Policy": "default-src 'none'; frame-ancestors 'none'",
 }
-"""Of responses without their own."""
+"""Default security headers of responses."""
 
 
 class Guard:
@@ -34,7 +34,7 @@ class Guard:
         self._origins = frozenset(origins)
 
     async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
-        """Pass a request on, or refuse it with 403."""
+        """Pass a request on, or reject it with status 403."""
         if scope["type"] != "http":
             await self._app(scope, receive, send)
             return
@@ -61,7 +61,7 @@ class Guard:
         await app(scope, receive, send_guarded)
 
     def _refusal(self, headers: Headers, path: str) -> str | None:
-        """Return why a request is refused; None if it is allowed."""
+        """Return why a request is rejected; None if it is allowed."""
         host = host_of(headers.get("host", ""))
         if not (host in self._hosts or _is_address(host)):
             return "this host name is not served; add it with --allow-host"

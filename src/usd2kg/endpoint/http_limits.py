@@ -1,4 +1,4 @@
-"""HttpServerLimits: how long a client may take, and how much all clients may hold."""
+"""HttpServerLimits: time limits for a client, and the memory budget for unsent answers of all clients."""
 
 from dataclasses import dataclass
 

@@ -1,4 +1,4 @@
-"""BoundedProtocol: HTTP/1.1 of uvicorn, with time limits for the head, the body and the answer."""
+"""BoundedProtocol: uvicorn's HTTP/1.1 with time limits for the request head, the body and the response."""
 
 import asyncio
 from typing import Any
@@ -12,7 +12,7 @@ __all__ = ["BoundedProtocol"]
 
 
 class BoundedProtocol(H11Protocol):
-    """One connection. uvicorn itself waits for its client indefinitely."""
+    """One connection; uvicorn itself would wait for a client indefinitely."""
 
     def __init__(self, connections: Connections, limits: HttpServerLimits, **options: Any) -> None:
         super().__init__(**options)
@@ -24,7 +24,7 @@ class BoundedProtocol(H11Protocol):
         self._unsent = 0
 
     def connection_made(self, transport: asyncio.Transport) -> None:  # type: ignore[override]
-        """Start waiting for a request; refuse the connection if there are too many."""
+        """Start waiting for a request; reject the connection if there are too many."""
         super().connection_made(transport)
         if not self._all.add(transport):
             transport.abort()
@@ -32,14 +32,14 @@ class BoundedProtocol(H11Protocol):
         self._wait_for_request()
 
     def connection_lost(self, exc: Exception | None) -> None:
-        """Forget the connection."""
+        """Remove the connection from the open ones."""
         self._all.discard(self.transport)
         self._stop_reading()
         self._stop_writing()
         super().connection_lost(exc)
 
     def data_received(self, data: bytes) -> None:
-        """Read a part of a request."""
+        """Process a chunk of a request."""
         super().data_received(data)
         self._wait_for_request()
 
@@ -50,19 +50,19 @@ class BoundedProtocol(H11Protocol):
         super().on_response_complete()
 
     def pause_writing(self) -> None:
-        """Start to watch whether the client takes its answer."""
+        """Start checking that the client reads its response."""
         super().pause_writing()
         self._unsent = self.transport.get_write_buffer_size()
         self._stop_writing()
         self._writing = self.loop.call_later(self._limits.write_s, self._check_progress)
 
     def resume_writing(self) -> None:
-        """Stop watching; the client has taken the answer."""
+        """Stop checking; the client has read the response."""
         self._stop_writing()
         super().resume_writing()
 
     def _wait_for_request(self) -> None:
-        """Set the time limit of the part of the request that is missing: its head, then its body."""
+        """Set the time limit for the missing part of the request: its head, then its body."""
         is_answering = self.cycle is not None and not self.cycle.response_complete
         if is_answering and not self.cycle.more_body:
             self._stop_reading()

@@ -13,14 +13,14 @@ __all__ = ["Address", "open_socket", "url_of"]
 
 @dataclass(frozen=True)
 class Address:
-    """Where a server listens, and under which names."""
+    """Address and host names of a server."""
 
     host: str = "127.0.0.1"
     """Name or address of this machine; 127.0.0.1 accepts local connections only."""
     port: int = 0
     """0 selects a free port."""
     names: Sequence[str] = ()
-    """Host names that are served in addition to localhost, IP addresses and `host`."""
+    """Host names to accept in addition to localhost, IP addresses and `host`."""
 
     @property
     def is_local(self) -> bool:

@@ -1,4 +1,4 @@
-"""Connections: the open connections of a server, and the bytes of answers that wait for clients."""
+"""Connections: the open connections of a server, and the bytes of unsent answers."""
 
 import asyncio
 
@@ -27,18 +27,18 @@ class Connections:
         self._open.discard(transport)
 
     def can_hold(self, count: int) -> bool:
-        """Return whether an answer of so many bytes fits in the budget, with those that wait already."""
+        """Return whether an answer of `count` bytes fits the budget, together with the unsent answers."""
         held = sum(transport.get_write_buffer_size() for transport in self._open)
         return held == 0 or held + count <= self._limits.held_bytes
 
     def abort_all(self) -> None:
-        """Close all connections, whatever waits for them."""
+        """Close all connections and drop unsent answers."""
         for transport in list(self._open):
             transport.abort()
 
 
 def _open_files() -> int:
-    """Return how many files this process may open; a number without effect where there is no such limit."""
+    """Return the open-file limit of this process; a large number on systems without such a limit."""
     try:
         import resource  # noqa: PLC0415 - not on every system
     except ModuleNotFoundError:

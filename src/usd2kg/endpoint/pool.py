@@ -40,7 +40,7 @@ class WorkerPool:
     """Workers over one store folder. A killed worker is replaced when it is next needed."""
 
     def __init__(self, folder: Path, limits: EndpointLimits, tables: Path | None = None) -> None:
-        """Wrap a store folder; `tables` is where tables that are computed from it are kept."""
+        """Wrap a store folder; `tables` is the folder for tables derived from it."""
         self._folder = folder
         self._tables = tables
         self._limits = limits
@@ -76,7 +76,7 @@ class WorkerPool:
         except (asyncio.IncompleteReadError, ConnectionError) as error:
             raise WorkerLostError from error
         finally:
-            # A disconnected client cancels this task, possibly with half an answer in the pipe.
+            # A disconnected client cancels this task, possibly with a partial answer in the pipe.
             if is_done:
                 self._idle.append(worker)
             else:

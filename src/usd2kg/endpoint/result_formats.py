@@ -43,7 +43,7 @@ class Rendered(NamedTuple):
     body: bytes
     rows: int
     is_cut: bool
-    """Whether rows are missing because of the limits."""
+    """Whether the limits cut off rows."""
 
 
 def render(found: Any, media_type: str, limits: EndpointLimits) -> Rendered:

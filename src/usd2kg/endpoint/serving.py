@@ -78,7 +78,7 @@ def serve(place: str, options: ServeOptions, report: Callable[[str], None]) -> N
 
 
 def page_files() -> dict[str, AppFile]:
-    """Return the query page; nothing in a checkout without Node.js, where the protocol is all that is served."""
+    """Return the query page; empty if it is not built, so that only the SPARQL Protocol is served."""
     try:
         return read_app_files("query.html")
     except OutputError:
@@ -86,13 +86,13 @@ def page_files() -> dict[str, AppFile]:
 
 
 class _Served(NamedTuple):
-    """What the workers read."""
+    """The data that the workers read."""
 
     folder: Path
     tables: Path | None
-    """Folder for tables that are computed from the graphs."""
+    """Folder for tables derived from the graphs."""
     keeper: object = None
-    """What has to exist as long as the index of a large file is read."""
+    """Object that keeps the index of a large file alive while it is read."""
 
 
 def _prepare(place: str, folder: Path) -> _Served:

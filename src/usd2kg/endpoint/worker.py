@@ -1,8 +1,8 @@
-"""Worker process: answers one query at a time over a read-only store; can be killed at any moment.
+"""Worker process: answers one query at a time over a read-only store; can be killed at any time.
 
 Usage: python -m usd2kg.endpoint.worker FOLDER LIMITS [TABLES]
 
-LIMITS is `EndpointLimits` as JSON, TABLES a folder for tables that are computed from the store. Each line on stdin is
+LIMITS is `EndpointLimits` as JSON, TABLES a folder for tables derived from the store. Each line on stdin is
 a request as a JSON object. Each answer on stdout is one line of JSON, whose `length` is the number of bytes after it.
 """
 
@@ -106,7 +106,7 @@ def _write(answers: BinaryIO, header: dict[str, Any], body: bytes) -> None:
 
 
 def _terminate_after(seconds: float) -> None:
-    """Make the system end this process after a time, in case the server that would kill it is gone; 0 cancels."""
+    """Set an alarm that ends this process, in case the server that would kill it has died; 0 cancels it."""
     if hasattr(signal, "setitimer"):
         signal.setitimer(signal.ITIMER_REAL, seconds)
 

@@ -67,7 +67,7 @@ class KnowledgeGraph(RichDisplay):
     classes: dict[str, int]
     """Class IRI → number of objects asserted to have that class."""
     missing_imports: tuple[str, ...] = ()
-    """IRIs of ontologies that were to be merged and are unavailable."""
+    """IRIs of ontologies that could not be merged because they are unavailable."""
 
 
 @traced("instantiate", lambda graph: {"triples": len(graph.triples)})
@@ -129,7 +129,7 @@ def _imports(tbox: TBox, profile: Profile) -> Iterator[str]:
     if not own.startswith("file:"):
         yield own
     for iri in profile.imports:
-        # SOMA's own documents import the others that they need.
+        # SOMA's documents import the other ontologies that they need.
         is_imported = iri in tbox.imports or (iri.startswith(_SOMA_DOCUMENTS) and own.startswith(_SOMA_DOCUMENTS))
         if iri != own and not is_imported:
             yield iri

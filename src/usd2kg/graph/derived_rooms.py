@@ -24,10 +24,10 @@ def derived_room_iri(base: str, name: str) -> str:
 
 
 def room_classes(names: Iterable[str], tbox: TBox) -> Mapping[str, ClassIRI]:
-    """Return name → class for rooms by name, as the default grounder understands the names; none without a room class.
+    """Return name → class of rooms, grounded by name with the default grounder; empty if the TBox has no room class.
 
-    A kitchen is a `Kitchen` if that is a subclass of `Room`, else a `Room`. Classes that rooms and other things have in
-    common, such as structures, are left out: they say nothing of a room.
+    A kitchen is a `Kitchen` if that is a subclass of `Room`, otherwise a `Room`. Classes that also cover other things,
+    such as structures, are excluded: they are not specific to rooms.
     """
     asked = ["room", *names]
     views = [(name, ObjectView(name=name)) for name in dict.fromkeys(asked)]
@@ -68,6 +68,6 @@ def describe_derived_room(
 
 
 def _polygon(room: DerivedRoom) -> str:
-    """Return the outline in the syntax of WKT; each ring ends where it began."""
+    """Return the outline as WKT with closed rings."""
     rings = (", ".join(f"{x:.3f} {y:.3f}" for x, y in (*ring, ring[0])) for ring in room.outline)
     return f"POLYGON ({', '.join(f'({ring})' for ring in rings)})"

@@ -9,13 +9,13 @@ import pyoxigraph as ox
 __all__ = ["PackedTriples", "subject_chunks", "turtle_statements"]
 
 _CHUNK = 20_000
-"""Triples that are serialised and compressed at once, as objects 6 MB; affects speed and memory only."""
+"""Triples that are serialised and compressed together (6 MB as objects); affects only speed and memory."""
 
 
 class PackedTriples(Sequence[ox.Triple]):
-    """Immutable triples that take 6 bytes each instead of 300 as objects; iteration makes the objects anew.
+    """Immutable triples at 6 bytes each instead of 300 as objects; iteration recreates the objects.
 
-    They are packed as the text that most graphs are written as, so that writing it needs no objects either.
+    They are packed as Turtle, the usual output format, so that writing a graph does not recreate the objects.
     """
 
     def __init__(self, triples: Iterable[ox.Triple], prefixes: Mapping[str, str]) -> None:
@@ -28,7 +28,7 @@ class PackedTriples(Sequence[ox.Triple]):
             self._packed.append(zlib.compress(turtle_statements(chunk, self.prefixes), level=1))
 
     def __add__(self, other: "PackedTriples") -> "PackedTriples":
-        """Return these triples and others with the same prefixes, which begin with another subject than these end."""
+        """Return the concatenation; the prefixes must be equal, and `other` must start with a new subject."""
         joined = PackedTriples((), self.prefixes)
         joined._count, joined._packed = self._count + other._count, self._packed + other._packed
         return joined
@@ -43,7 +43,7 @@ class PackedTriples(Sequence[ox.Triple]):
     def __iter__(self) -> Iterator[ox.Triple]:
         prologue = "".join(f"@prefix {name}: <{iri}> .\n" for name, iri in self.prefixes.items()).encode()
         for statements in self.turtle():
-            # The IRIs were checked when their nodes were made.
+            # The IRIs were validated when their nodes were created.
             for quad in ox.parse(prologue + statements, format=ox.RdfFormat.TURTLE, lenient=True):
                 yield quad.triple
 

@@ -1,7 +1,7 @@
 """Size, pose and mass of objects: as quality nodes with regions (SOMA), or as datatype properties (u2k).
 
 SOMA: hasShape → Shape → hasRegion → BoxShape, with hasLength and hasDepth for KnowRob; a geometry file is a second
-region, a MeshShape. Each quality node belongs to one object: a shared quality makes the graph inconsistent.
+region, a MeshShape. Each quality node belongs to one object, since a shared quality makes the graph inconsistent.
 """
 
 from collections.abc import Iterator

@@ -53,7 +53,7 @@ _NOT_READ = {
     ".ofn": "graphs are not read from OWL functional syntax, which usd2kg ontology show and --ontology read as classes",
     ".graphml": "graphs are not read from GraphML, an export format",
 }
-"""File extension of what is not read as a graph → reason."""
+"""File extension of an unsupported input → reason."""
 
 
 class GraphPart(NamedTuple):
@@ -120,7 +120,7 @@ def check_graph_file(path: Path) -> ox.RdfFormat:
 
 @contextmanager
 def parse_errors_explained(path: Path, syntax: ox.RdfFormat) -> Iterator[None]:
-    """Raise a GraphError for whatever reading and parsing a graph file raises."""
+    """Convert exceptions of reading and parsing a graph file to GraphError."""
     try:
         yield
     except MemoryError as error:
@@ -133,9 +133,9 @@ def parse_errors_explained(path: Path, syntax: ox.RdfFormat) -> Iterator[None]:
 
 @traced("parse", lambda triples: {"triples": len(triples)})
 def read_statements(path: Path) -> tuple[ox.Triple, ...]:
-    """Return the statements of all named graphs in a file, in its order, each once.
+    """Return the distinct statements of all named graphs in a file, in file order.
 
-    Literals keep their lexical form, which a store normalizes.
+    Literals keep their lexical form, unlike in a store, which normalizes it.
 
     Raises:
         GraphError: the file is missing, its extension names no RDF format, or it does not parse.

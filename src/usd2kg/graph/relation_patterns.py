@@ -83,7 +83,7 @@ def _inverse(relation: Relation, name: ox.NamedNode, target: ox.NamedNode, ancho
 def relation_annotations(relation: Relation) -> list[tuple[ox.NamedNode, ox.NamedNode | ox.Literal]]:
     """Return the rule, measurements and confidence of a relation as annotations.
 
-    Measurements have six decimals, micrometres for lengths: what is below is noise of 32-bit coordinates.
+    Measurements have six decimals, micrometres for lengths; smaller digits are rounding noise of 32-bit coordinates.
     """
     numbers = [(U2K[name], number(round(value, _DECIMALS))) for name, value in relation.numbers.items()]
     confidence = [] if relation.confidence is None else [(SSSOM.confidence, number(relation.confidence))]

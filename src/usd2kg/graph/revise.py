@@ -1,4 +1,4 @@
-"""revise_classes: the statements of a graph with other classes of some objects."""
+"""revise_classes: the statements of a graph after reviewers changed the classes of some objects."""
 
 from collections.abc import Iterable, Iterator, Mapping
 
@@ -20,7 +20,7 @@ _OUTCOME = frozenset(
         *(U2K.predictedConfidence, SSSOM.reviewer_id, SSSOM.reviewer_label, U2K.concept, U2K.conceptConfidence),
     }
 )
-"""What a graph states about an object that follows from its prediction, apart from the class."""
+"""Properties of an object that follow from its prediction, except for its class."""
 
 
 def revise_classes(
@@ -34,13 +34,13 @@ def revise_classes(
 ) -> tuple[ox.Triple, ...]:
     """Return the statements of a graph after decisions: only those about the class of a revised object differ.
 
-    Spatial relations stay, although a class can decide what an object holds and bears. The superclasses of classes
-    that are no longer used stay, too.
+    Spatial relations are kept, although the class of an object can affect which relations hold. The superclasses of
+    classes that are no longer used are kept, too.
 
     Args:
         statements: the graph.
-        before: IRI of an individual → the prediction that the graph states, of the revised objects.
-        after: the same → the prediction that it shall state.
+        before: individual IRI → current prediction in the graph, for the revised objects.
+        after: individual IRI → new prediction.
         tbox: the classes.
         run: IRI of the grounding run.
         annotations: `owl` or `rdf12`, see `GraphOptions`.
@@ -55,7 +55,7 @@ def revise_classes(
 
 
 class _ClassRevision:
-    """What to take from a graph and what to add."""
+    """The statements to remove from a graph and to add to it."""
 
     def __init__(
         self, before: Mapping[str, Prediction], after: Mapping[str, Prediction], run: ox.NamedNode, annotations: str
@@ -89,7 +89,7 @@ class _ClassRevision:
         return subject in self._nodes and (predicate in _OUTCOME or tuple(statement) in self._types)
 
     def statements(self) -> Iterator[Triple]:
-        """Yield what follows from the new predictions, as `instantiate` writes it."""
+        """Yield the statements that follow from the new predictions, as written by `instantiate`."""
         for iri, prediction in self._after.items():
             node = ox.NamedNode(iri)
             if prediction.class_iri is None:

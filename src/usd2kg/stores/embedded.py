@@ -33,7 +33,7 @@ logger = logging.getLogger(__name__)
 _ROCKSDB_FILE = "CURRENT"
 """A file in every Oxigraph folder."""
 _LEFTOVERS = (f"{PENDING_NAME}.*", "LOG.old.*", "bulk-*.sst")
-"""Files that nothing reads any more: of a killed load, old logs of the engine, and of an aborted bulk load."""
+"""Stale files of killed loads and aborted bulk loads, and old logs of the engine."""
 _STORE_FILES = re.compile(
     r"usd2kg\.(lock|pending|damaged|reserve).*|LOCK|LOG(\.old\.\d+)?|IDENTITY|(MANIFEST|OPTIONS)-\d+(\.dbtmp)?|\d+\.(log|sst|dbtmp)"
 )
@@ -47,7 +47,7 @@ class _UnwritableError(StoreError):
 
 
 class _FullDiskError(_UnwritableError):
-    """There is no space left for what has to be written."""
+    """The disk or the quota is full."""
 
 
 class EmbeddedStore:
@@ -93,12 +93,12 @@ class EmbeddedStore:
     def remove(self, iri: str) -> None:
         """Remove a graph.
 
-        On a full disk, the reserve of the folder is used, then an interrupted load is given up.
+        On a full disk, this releases the reserve of the folder and, if necessary, discards an interrupted load.
 
         Raises:
             StoreError: as for `check`.
         """
-        for free_space in (partial(release_reserve, self._folder), self._give_up_pending):
+        for free_space in (partial(release_reserve, self._folder), self._discard_pending):
             with suppress(_FullDiskError):
                 return self._remove(iri)
             free_space()
@@ -179,7 +179,7 @@ class EmbeddedStore:
         return [GraphStore(Dataset(store, graphs, self.tables(graphs)), self.address, keeper) for graphs in selected]
 
     def tables(self, graphs: Iterable[ox.NamedNode] | None = None) -> Path | None:
-        """Return a folder for tables that are computed from some graphs as they are now; None for a small store.
+        """Return a folder for tables derived from the current content of some graphs; None for a small store.
 
         Args:
             graphs: the graphs; None for all.
@@ -235,21 +235,21 @@ class EmbeddedStore:
         try:
             self.check()
         except _UnwritableError as error:
-            # Not the exception itself, whose traceback keeps the store open while the record is kept.
+            # Log the text, not the exception: its traceback would keep the store open as long as the log record.
             logger.warning("%s; the scene whose load was interrupted is missing until then", str(error))
 
-    def _give_up_pending(self) -> None:
+    def _discard_pending(self) -> None:
         """Delete the graph of an interrupted load."""
         path = self._folder / PENDING_NAME
         with self._damage_reported(_UnwritableError), lock_exclusive(self._folder, self._wait_s):
             if path.is_file():
                 with path.open("rb") as file:
-                    logger.warning("%s: gives up an interrupted load; load %s again", self._folder, read_name(file))
+                    logger.warning("%s: discarded an interrupted load; load %s again", self._folder, read_name(file))
                 path.unlink()
 
     @contextmanager
     def _damage_reported(self, unusable: type[StoreError] = StoreError) -> Iterator[None]:
-        """Translate the engine's error for damaged files, which any read can raise, and those of the system."""
+        """Translate the engine's errors for damaged files, which any read can raise, and operating system errors."""
         try:
             yield
         except OSError as error:
@@ -298,14 +298,14 @@ class EmbeddedStore:
         (self._folder / PENDING_NAME).unlink()
 
     def _add(self, store: ox.Store, quads: Iterable[ox.Quad]) -> None:
-        """Add quads to the store: all of them or, if the process dies, none."""
-        # The engine adds them at once, which its documentation does not promise: a test kills it at many moments.
-        # Loading by its own parser would rename the blank nodes.
+        """Add all quads to the store, or none if the process dies."""
+        # The engine adds them atomically. Its documentation does not guarantee this, so a test kills it at many points.
+        # The engine's own parser would rename the blank nodes.
         store.bulk_extend(quads)
         store.flush()
 
 
 def _is_full(error: OSError) -> bool:
-    """Return whether space or a quota is used up; the engine only says so in words."""
+    """Return whether the disk or a quota is full; the engine reports this only in the message text."""
     text = str(error).lower()
     return error.errno in {errno.ENOSPC, errno.EDQUOT} or "no space left" in text or "quota" in text

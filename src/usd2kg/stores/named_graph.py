@@ -123,7 +123,7 @@ def stored_quads(graph: NamedGraph) -> Iterator[ox.Quad]:
         return term
 
     for triple in graph.triples:
-        # The engine makes a new object for each term that is asked for.
+        # The engine creates a new object on each access to a term.
         subject, value = triple.subject, triple.object
         if not isinstance(subject, ox.NamedNode):
             subject = relabel(subject)

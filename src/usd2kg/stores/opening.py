@@ -61,7 +61,7 @@ class SceneStore(Protocol):
         ...
 
     def views(self, selections: Iterable[Sequence[str]]) -> list[GraphStore]:
-        """Return the union of each selection of graphs for a few questions, in place where the store is local."""
+        """Return the union of each selection of graphs for a few queries, in place if the store is local."""
         ...
 
 
@@ -71,7 +71,7 @@ def is_store(place: str) -> bool:
 
 
 def open_store(place: str, *, update: str | None = None, data: str | None = None) -> SceneStore:
-    """Return the store in a folder or at an address; `update` and `data` are endpoints not to be discovered.
+    """Return the store in a folder or at an address; `update` and `data` override the discovery of endpoints.
 
     Raises:
         StoreError: the address or the credentials in the environment are invalid.
@@ -100,7 +100,7 @@ def select_graphs(store: SceneStore, scene: str | None) -> list[str]:
 
 
 def view_scenes(place: str, scene: str | None = None) -> dict[str, GraphStore]:
-    """Return scene → its graph with the ontologies of the store, for a few questions; for a file, its only graph.
+    """Return scene → its graph with the ontologies of the store, for a few queries; for a file, its only graph.
 
     Positions of two scenes cannot be compared, so a question is asked of each scene. A large file is indexed in the
     user's cache, and a folder is queried in place: writers wait until the graphs are no longer used.

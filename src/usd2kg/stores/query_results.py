@@ -12,7 +12,7 @@ def parse_results(body: bytes, sparql: str) -> Answer:
     """Return the answer in a response body: SPARQL results JSON or N-Triples.
 
     Raises:
-        StoreError: the body is in neither format, or holds a text of more than 16 MiB.
+        StoreError: the body is in neither format, or contains a literal of more than 16 MiB.
     """
     try:
         if not body.lstrip().startswith(b"{"):
@@ -25,7 +25,7 @@ def parse_results(body: bytes, sparql: str) -> Answer:
         return make_answer(columns, [tuple(solution[c] for c in columns) for solution in found], sparql)
     except MemoryError as error:
         # The parser holds at most 16 MiB of one value.
-        raise StoreError(f"the answer holds a text that is too long ({error}); ask for less of it (SUBSTR)") from error
+        raise StoreError(f"the answer contains an overlong literal ({error}); query a part of it (SUBSTR)") from error
     except (SyntaxError, UnicodeDecodeError) as error:
         raise StoreError(
             f"the server's answer is neither SPARQL results JSON nor N-Triples ({error}); check that it is a SPARQL "

@@ -1,6 +1,6 @@
-"""Space that a store folder keeps, so that graphs can be removed when the disk is full.
+"""Reserved disk space in a store folder, so that graphs can be removed when the disk is full.
 
-The engine writes a log and its options before it removes anything.
+The engine writes a log and its options before it removes a graph.
 """
 
 from contextlib import suppress
@@ -14,9 +14,9 @@ _NAME = "usd2kg.reserve"
 
 
 def keep_reserve(folder: Path) -> None:
-    """Write the file that takes the space; without enough space, there is none."""
+    """Write the reserve file; without enough space, there is no reserve."""
     path = folder / _NAME
-    # A process that was killed leaves a short file.
+    # A killed process may have left a short file.
     if not path.exists() or path.stat().st_size != RESERVE_BYTES:
         try:
             # Not a sparse file, which would reserve nothing.
@@ -26,6 +26,6 @@ def keep_reserve(folder: Path) -> None:
 
 
 def release_reserve(folder: Path) -> None:
-    """Remove the file."""
+    """Remove the reserve file."""
     with suppress(OSError):
         (folder / _NAME).unlink(missing_ok=True)

@@ -43,4 +43,4 @@ class FolderLimits:
 
 
 RESERVE_BYTES = 4 << 20
-"""Space that a folder keeps for removing graphs on a full disk; the engine was measured to write 1 to 2 MiB."""
+"""Space reserved for removing graphs on a full disk; the engine writes 1 to 2 MiB (measured)."""

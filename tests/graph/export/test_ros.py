@@ -91,7 +91,7 @@ class TestFrameIds:
             read_transforms(PropertyGraph((placed("/a"),), ()), frame)
 
     def test_world_frame_may_not_be_an_object(self):
-        with pytest.raises(GraphError, match="frame id 'map', as has the frame map; choose another --frame"):
+        with pytest.raises(GraphError, match="frame id 'map' is also that of the frame map; choose another --frame"):
             read_transforms(PropertyGraph((placed("/map"),), ()))
 
     def test_several_scenes_have_no_common_frame(self):

@@ -20,14 +20,14 @@ _ROWS = 10_000
 _HEAD = """// Loads the graph of a scene into a running Neo4j, 5.23 or later.
 //
 // 1. Copy nodes.csv and relationships.csv into the import folder of the database.
-// 2. Where names hold backslashes, set in neo4j.conf: dbms.import.csv.legacy_quote_escaping=false
+// 2. If names contain backslashes, set in neo4j.conf: dbms.import.csv.legacy_quote_escaping=false
 // 3. Run: cypher-shell -f load.cypher
 //
 // For a new database of millions of nodes, this is faster:
 //   neo4j-admin database import full neo4j --nodes=nodes.csv --relationships=relationships.csv \\
 //     --multiline-fields=true
 //
-// Loading again replaces the properties of known nodes, and adds no second relation of a type between two nodes.
+// Loading again replaces the properties of existing nodes and creates no duplicate relationships.
 """
 _LABEL_STEP = "  FOREACH (x IN CASE WHEN '{name}' IN labels THEN [1] ELSE [] END | SET n:`{name}`)"
 
@@ -35,7 +35,7 @@ _LABEL_STEP = "  FOREACH (x IN CASE WHEN '{name}' IN labels THEN [1] ELSE [] END
 def write_neo4j(graph: PropertyGraph, folder: Path) -> tuple[Path, ...]:
     """Write nodes.csv, relationships.csv and load.cypher into a folder, created if missing; return their paths.
 
-    Texts are not guarded against spreadsheet formulas, since the files are for a database.
+    Cells that look like spreadsheet formulas are not escaped, since the files are for a database.
 
     Raises:
         OutputError: the folder cannot be created, or a file cannot be written.

@@ -37,7 +37,7 @@ _FLOOR = {U2K.floorArea: "floorArea", U2K.floorHeight: "floorHeight", SSSOM.conf
 _LIST_SEPARATOR = " | "
 
 _MAX_CLASSES = 100
-"""Most superclasses of a node. Real hierarchies have fewer; all those of a chain of thousands would be quadratic."""
+"""Maximum number of superclass labels of a node. Real hierarchies have fewer; it bounds the output for long chains."""
 
 
 class PropertyNode(NamedTuple):
@@ -88,7 +88,7 @@ def read_property_graph(document: GraphDocument) -> PropertyGraph:
 
 @dataclass
 class _Index:
-    """Triples by subject and predicate, and annotations by statement."""
+    """Index of triples by subject and predicate, and of annotations by statement."""
 
     document: GraphDocument
     of: dict[_Resource, dict[ox.NamedNode, list[_Term]]] = field(default_factory=dict)
@@ -151,8 +151,8 @@ class _NodeReader:
         return tuple(name for name in names if name and name not in {"Thing", "Object"})
 
     def _closure(self, cls: _Term) -> list[_Term]:
-        """Return a class and its superclasses, most general first; the nearest ones of very many."""
-        # Iterative, since a chain of classes may be longer than the stack; a class in a circle is met again while open.
+        """Return a class and its superclasses, most general first; only the nearest ones if there are too many."""
+        # Iterative, since a chain of classes may be longer than the stack; in a cycle, an open class is visited again.
         pending = [cls]
         while pending:
             below = pending[-1]

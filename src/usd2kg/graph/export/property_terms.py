@@ -6,7 +6,7 @@ from usd2kg.graph.vocabulary import DUL, OWL, RDFS, SKOS, SOMA, U2K, USD
 __all__ = ["EDGES", "EDGE_NUMBERS", "NUMBERS", "OBJECT_CLASSES", "PARTS", "SYMMETRIC", "TEXTS", "VECTORS"]
 
 OBJECT_CLASSES = frozenset({USD.Prim, U2K.Object, OWL.NamedIndividual})
-"""Generic classes of every object, which are not labels of nodes."""
+"""Generic classes of every object, which do not become node labels."""
 SYMMETRIC = frozenset({"TOUCHING", "NEXT_TO", "NEAR"})
 """Edge types of symmetric relations."""
 

@@ -54,7 +54,7 @@ _EXTENSIONS = {
 }
 """Extension column → CURIE of its property."""
 _CLAIMS = frozenset({Status.REFUSED, Status.REVIEWED})
-"""Statuses that, without a class, state that no class fits."""
+"""Statuses that mean "no class fits" if the prediction has no class."""
 _PREFIX = "scene"
 
 

@@ -140,7 +140,7 @@ def _bytes(data: bytes | None) -> bytes:
 
 
 def _rdf_xml(document: GraphDocument) -> Chunks:
-    # Writers of XML load the HTTP client.
+    # The XML writers of the standard library import the HTTP client.
     from usd2kg.graph.formats.rdf_xml import rdf_xml_pieces  # noqa: PLC0415
 
     return rdf_xml_pieces(document.triples, document.prefixes, document.source)

@@ -1,1 +1,1 @@
-"""Messages of ROS 2 from a property graph: static transforms, detections, and relations beside them."""
+"""ROS 2 messages from a property graph: static transforms and detections, with a file of relations."""

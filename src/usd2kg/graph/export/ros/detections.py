@@ -35,11 +35,11 @@ def write_ros2(graph: PropertyGraph, folder: Path, frame: str = "map") -> tuple[
 
 
 def read_detections(graph: PropertyGraph, frame: str = "map") -> Message:
-    """Return a vision_msgs/Detection3DArray, as since version 4: a detection for each object with a pose.
+    """Return a vision_msgs/Detection3DArray (version 4 or later) with a detection for each object with a pose.
 
     `id` is the frame id of the object in tf, `class_id` the IRI of its class, `score` the confidence, `results[].pose`
-    the pose of the prim's own frame with an unknown covariance (zeros), `bbox` the axis-aligned box. What the graph
-    does not state is left out, so that the message has its default: `results` without a class, `score` without a
+    the pose of the prim's own frame with an unknown covariance (zeros), `bbox` the axis-aligned box. Fields that
+    the graph lacks are omitted and keep the default of the message: `results` without a class, `score` without a
     confidence, `bbox` without a box.
 
     Raises:
@@ -54,8 +54,8 @@ def read_detections(graph: PropertyGraph, frame: str = "map") -> Message:
 def read_relations(graph: PropertyGraph, frame: str = "map") -> Message:
     """Return the objects and rooms by id, and the relations between them with their numbers.
 
-    Relations are the edges of the property graph, in lower case: `on`, `inside`, `next_to`, `in_room`. Symmetric ones
-    are stated once.
+    Relations are the edges of the property graph, in lower case: `on`, `inside`, `next_to`, `in_room`. Symmetric
+    relations appear once.
 
     Raises:
         GraphError: `frame` is not a frame id, or the graph has several scenes.

@@ -1,4 +1,4 @@
-"""Frame ids of tf2 from prim paths: unique, reversible, and without a table."""
+"""Unique and reversible tf2 frame ids from prim paths, without a lookup table."""
 
 import re
 
@@ -23,7 +23,7 @@ def frame_id_of(prim_path: str) -> str:
     >>> frame_id_of("/World/Books[7]"), frame_id_of("/World/Books_u005B_7")
     ('World/Books_u005B_7_u005D_', 'World/Books_u005F_u005B_7')
     """
-    # tf2 refuses leading slashes.
+    # tf2 rejects leading slashes.
     return _ESCAPED.sub(lambda found: f"_u{ord(found[0]):04X}_", prim_path.lstrip("/"))
 
 
@@ -31,7 +31,7 @@ def check_frame(frame: str) -> str:
     """Return `frame` unchanged.
 
     Raises:
-        GraphError: it is not a frame id.
+        GraphError: `frame` is not a valid frame id.
     """
     if not _FRAME.fullmatch(frame):
         raise GraphError(
@@ -46,7 +46,7 @@ def read_frame_ids(graph: PropertyGraph, frame: str) -> dict[str, str]:
     Rooms without a prim get the id of the last part of their IRI.
 
     Raises:
-        GraphError: the graph is of several scenes, whose world frames differ, or two things have the same id.
+        GraphError: the graph covers several scenes, whose world frames differ, or two frame ids are equal.
     """
     nodes = [node for node in graph.nodes if "Joint" not in node.labels[:2]]
     scenes = {str(node.properties["scene"]) for node in nodes if "scene" in node.properties}
@@ -60,7 +60,7 @@ def read_frame_ids(graph: PropertyGraph, frame: str) -> dict[str, str]:
     for node in nodes:
         name = frame_id_of(_path(node))
         if not name or name in owners:
-            raise GraphError(f"{node.id}: has the frame id {name!r}, as has {owners.get(name, 'no valid frame')}")
+            raise GraphError(f"{node.id}: the frame id {name!r} is also that of {owners.get(name, 'no valid frame')}")
         owners[name] = node.id
         found[node.id] = name
     return found

@@ -17,7 +17,7 @@ _INDENT = "  "
 
 
 def json_text(value: Any) -> str:
-    """Return indented JSON; objects and lists without others in them are on one line.
+    """Return indented JSON; flat objects and lists are on one line.
 
     >>> print(json_text({"frame": "map", "at": {"x": 1.0, "y": 0.00001}, "all": [{"a": [1, 2]}]}), end="")
     {

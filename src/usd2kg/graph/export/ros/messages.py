@@ -1,4 +1,4 @@
-"""Parts that messages share, as JSON objects with the field names of ROS 2."""
+"""Message parts shared by the exports, as JSON objects with the field names of ROS 2."""
 
 from collections.abc import Iterable
 from typing import Any
@@ -11,7 +11,7 @@ Message = dict[str, Any]
 
 
 def header(frame: str) -> Message:
-    """Return a std_msgs/Header with the time 0: what a graph states holds at all times."""
+    """Return a std_msgs/Header with time 0, since the statements of a graph hold at all times."""
     return {"stamp": {"sec": 0, "nanosec": 0}, "frame_id": frame}
 
 

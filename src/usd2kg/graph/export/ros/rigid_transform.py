@@ -14,7 +14,7 @@ _Quaternion = tuple[float, float, float, float]
 
 
 class RigidTransform(NamedTuple):
-    """A frame in another one: rotation first, then translation."""
+    """The pose of a frame in another frame: rotation first, then translation."""
 
     translation: _Vector
     """Metres."""

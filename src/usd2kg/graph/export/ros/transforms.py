@@ -1,4 +1,4 @@
-"""Static transforms for tf2: a tf2_msgs/TFMessage of all objects, and what its frames are."""
+"""Static transforms for tf2: a tf2_msgs/TFMessage of all objects, and a description of its frames."""
 
 from collections.abc import Mapping
 from pathlib import Path
@@ -41,8 +41,8 @@ def write_tf(graph: PropertyGraph, folder: Path, frame: str = "map") -> int:
 def read_transforms(graph: PropertyGraph, frame: str = "map") -> Message:
     """Return a tf2_msgs/TFMessage: a geometry_msgs/TransformStamped for each object with a pose.
 
-    A part is relative to the first whole that the graph states, any other object to the world frame. Axes are those of
-    the prim, without its scale.
+    The transform of a part is relative to the first whole in the graph, that of any other object to the world frame.
+    Axes are those of the prim, without scale.
 
     Raises:
         GraphError: `frame` is not a frame id, or the graph has several scenes.
@@ -66,7 +66,7 @@ def _stamped(
 
 
 def _wholes(graph: PropertyGraph, poses: Mapping[str, RigidTransform]) -> dict[str, str]:
-    """Return part → whole, a forest: the first whole of each part that has a pose; no circle."""
+    """Return part → whole as a forest: the first whole with a pose that does not close a cycle."""
     wholes: dict[str, str] = {}
     for edge in graph.edges:
         if edge.type == "PART_OF" and edge.start in poses and edge.end in poses:
