@@ -187,7 +187,7 @@ def test_names_the_shortest_circle_of_supporters(home_tbox: TBox, profile: str):
     assert finding.found == "it is on “Table” (/Table), which is on “Cup” (/Cup)"
     graph = open_room(home_tbox, profile, added(f"k:Table {on} k:Fork . k:Fork {on} k:Cup . k:Cup {on} k:Cup"))
     finding = find(graph, "support-circle")
-    assert finding.found == "it is on itself; 3 objects are in this and overlapping circles"
+    assert finding.found == "it is on itself; 3 objects are in this and overlapping cycles"
 
 
 @PROFILES

@@ -11,7 +11,7 @@ __all__ = ["AnchorMap"]
 
 
 class AnchorMap:
-    """Old anchor path → new one: of objects by their match, of room groups by the objects below them."""
+    """Old → new anchor path: for objects by their match, for room groups by the objects below them."""
 
     def __init__(
         self, matches: Sequence[ObjectMatch], removed: Iterable[ObjectState], added: Iterable[ObjectState]
@@ -25,7 +25,7 @@ class AnchorMap:
         self._groups = _match_groups(_group_anchors(old), _group_anchors(new), matches)
 
     def gained_and_lost(self, match: ObjectMatch, kinds: frozenset[str]) -> tuple[tuple[Link, ...], tuple[Link, ...]]:
-        """Return the relations that only the new object has, and those that only the old one has."""
+        """Return the relations of the new object alone, and those of the old object alone."""
         old, new = ({link for link in state.links if link.kind in kinds} for state in (match.old, match.new))
         if not (old or new):
             return (), ()

@@ -45,7 +45,7 @@ class Component:
 
     @property
     def annotated(self) -> AnnotatedStatement | None:
-        """The statement that the only node annotates; None if that is not one, or the node is also an object."""
+        """The statement annotated by the only node; None if it annotates none or several, or is itself an object."""
         found = list(self.find_annotated())
         is_alone = len(self.nodes) == 1 and all(triple.subject == self.nodes[0] for triple in self.triples)
         return found[0] if len(found) == 1 and is_alone else None

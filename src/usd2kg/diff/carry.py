@@ -45,7 +45,7 @@ def carry_decisions(
 ) -> CarriedDecisions:
     """Return decisions about old objects as decisions about the new objects that match them.
 
-    A decision about a path that only the new scene has is kept, and wins over one that would be carried to that path.
+    A decision about a path that only the new scene has is kept, and takes precedence over a carried decision.
 
     Args:
         decisions: prim path in either scene → decision, or class alone.

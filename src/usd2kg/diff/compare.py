@@ -25,7 +25,7 @@ class Move(NamedTuple):
     """A change of place, in metres and the world frame."""
 
     start: Vector
-    """Origin of the object's frame or, if that stayed, centre of its box."""
+    """Origin of the object's frame or, if the origin did not move, centre of its box."""
     end: Vector
     distance: float
 
@@ -119,8 +119,8 @@ def compare_objects(
         new: the objects of the other scene, likewise.
         tolerances: differences that do not count.
         kinds: the kinds of relations to compare.
-        is_grounded: whether both scenes were grounded, so that no class is a statement, too; None to compare classes
-            only if each scene has one.
+        is_grounded: whether both scenes were grounded, so that a missing class counts as a difference; None compares
+            classes only if each scene has at least one.
     """
     wanted = frozenset(kinds)
     matching = match_objects(old, new, tolerances)

@@ -1,6 +1,6 @@
-"""match_objects: identify old objects among the new, by prim path, or else by asset, size, name and place.
+"""match_objects: match old with new objects by prim path, otherwise by asset, size, name and place.
 
-Matching is one to one, in rounds; each round considers the objects that the earlier rounds left:
+Matching is one to one, in rounds; each round considers the objects still unmatched:
 
 1. The same prim path, unless asset, size and (if known) class all differ.
 2. The same path below a group or object whose path changed, as objects with unique names show.
@@ -35,7 +35,7 @@ _Predicate = Callable[[ObjectTable, Index, Index], Mask]
 
 @dataclass(frozen=True, slots=True)
 class ObjectMatch:
-    """An old object and the new object that is identified with it."""
+    """An old object and the matching new object."""
 
     old: ObjectState
     new: ObjectState
@@ -208,7 +208,7 @@ def _is_similar(table: ObjectTable, i: Index, j: Index) -> Mask:
 
 
 def _is_replaced(old: ObjectState, new: ObjectState, tolerances: Tolerances) -> bool:
-    """Return whether another object has the path now: asset and size differ, and the class if both are known."""
+    """Return whether the path now belongs to another object: asset, size and (if known) class differ."""
     if not (old.assets and new.assets and old.assets.isdisjoint(new.assets)) or old.size is None or new.size is None:
         return False
     is_resized = not is_same_size(sorted(old.size), sorted(new.size), tolerances)

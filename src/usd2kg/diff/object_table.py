@@ -100,7 +100,7 @@ def _compare_assets(old: frozenset[str], new: frozenset[str]) -> AssetAgreement:
 
 
 def _encode(values: Iterable[Hashable], count: int) -> tuple[Index, Index]:
-    """Return the values as integer codes, -1 for None: of the first `count` values, and of the others."""
+    """Return the values as integer codes, -1 for None, split after the first `count` values."""
     numbers: dict[Hashable, int] = {}
     codes = [_UNKNOWN if v is None else numbers.setdefault(v, len(numbers)) for v in values]
     both = np.array(codes, dtype=np.int64)

@@ -1,4 +1,4 @@
-"""Pairs of rows of two tables: with equal keys, or close to each other; and the selection of the best ones."""
+"""Pairs of rows of two tables with equal keys or nearby points, and selection of the best pairs."""
 
 from collections.abc import Iterator
 from itertools import product
@@ -60,7 +60,7 @@ def _candidates(left: GroupedPoints, right: GroupedPoints, radius: float) -> Ite
 
 
 def pick_pairs(i: Index, j: Index, keys: tuple[NDArray[np.float64] | Index, ...]) -> list[int]:
-    """Return the positions of the pairs that a greedy one-to-one assignment takes, smallest keys first."""
+    """Return the positions of the pairs chosen by a greedy one-to-one assignment, smallest keys first."""
     taken: list[int] = []
     left: set[int] = set()
     right: set[int] = set()

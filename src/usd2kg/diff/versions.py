@@ -30,13 +30,13 @@ class Version(NamedTuple):
 
 
 class VersionOptions(NamedTuple):
-    """How the graph of a stage is built for a comparison."""
+    """Options for building the graph of a stage for a comparison."""
 
     reading: ReadOptions
     kinds: Set[str] = frozenset()
     """Kinds of relations to find in addition to the default ones; those that need a viewpoint are not found."""
     base: str | None = None
-    """Namespace of the individuals; None for that of the other version, else one derived from the old file's name."""
+    """Namespace of the individuals; None for that of the other version or, without one, derived from the old file."""
     is_grounded: bool = True
 
 
@@ -61,7 +61,7 @@ def read_versions(
         new: the later version.
         open_tbox: returns the TBox for stages, and for the classes and imports that the other graph states; called
             only if one of the versions is a stage.
-        options: how the graph of a stage is built.
+        options: options for building the graph of a stage.
 
     Raises:
         Usd2kgError: a file cannot be read.
@@ -72,7 +72,7 @@ def read_versions(
     if graphs.keys() == {old, new}:
         return graphs[old], graphs[new]
     scenes = {path: read_scene(path, options=options.reading) for path in (old, new) if path not in graphs}
-    # Both versions are grounded in one TBox: other classes would be changes.
+    # Ground both versions in the same TBox; otherwise, classes would appear as changes.
     tbox = open_tbox(scenes.values(), {iri for version in graphs.values() for iri in _stated_in(version)})
     before, after = (graphs.get(path) or _build(path, scenes[path], tbox, style, options) for path in (old, new))
     return before, after

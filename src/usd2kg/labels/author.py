@@ -23,7 +23,7 @@ def author_labels(
     Args:
         stage: the composed stage; existing labels are read from it.
         labels: prim path → class.
-        layer: where the opinions go. It must not be a layer of the stage yet, which is read between the edits.
+        layer: the layer for the opinions. It must not be part of the stage, which is read between the edits.
         options: encodings and mode.
     """
     outcomes: list[LabelOutcome] = []

@@ -1,4 +1,4 @@
-"""parse_encodings: encodings of labels by the names that users give them."""
+"""parse_encodings: encodings of labels by their user-facing names."""
 
 from usd2kg.errors import OutputError
 from usd2kg.scene.model import Encoding
@@ -16,7 +16,7 @@ def parse_encodings(text: str, setting: str) -> tuple[Encoding, ...]:
 
     Args:
         text: the list.
-        setting: the option or setting that has the list, for the error.
+        setting: name of the option or setting, for the error message.
 
     Raises:
         OutputError: a name is unknown, or there is none.

@@ -66,7 +66,7 @@ def _check_replaceable(stage: Any, target: Path) -> None:
     for layer in stage.GetUsedLayers():
         if layer.realPath and is_same_file(Path(layer.realPath), target):
             raise OutputError(f"{target}: is a layer of the stage, which is never modified; choose another name")
-    # The stage may need a file that it does not use now, through an unselected variant or an unloaded payload.
+    # The stage may refer to further files through an unselected variant or an unloaded payload.
     if target.is_file() and target.stat().st_size and not _is_label_layer(target):
         raise OutputError(f"{target}: exists and is not a label layer of usd2kg; choose another name")
 
@@ -92,8 +92,8 @@ def _place_over(layer: Any, source: Any, target: Path) -> None:
     """Make `layer`, to be saved at `target`, a root layer over `source`."""
     if source.anonymous:
         raise OutputError(
-            f"{target}: the stage is only in memory, so no layer can refer to it; save it (a file of another format "
-            "with usd2kg convert), or write bare"
+            f"{target}: the stage exists only in memory, so no layer can refer to it; save it (convert a file of "
+            "another format with usd2kg convert), or write a bare layer"
         )
     folder = target.resolve().parent
     root = layer.pseudoRoot

@@ -30,7 +30,7 @@ OUTCOMES: tuple[Outcome, ...] = get_args(Outcome)
 
 @dataclass(frozen=True, slots=True)
 class ClassLabel:
-    """A class, and possibly a concept, as they are written in labels."""
+    """A class and optionally a concept, as written in labels."""
 
     token: str
     """The label, such as `Cup`."""
@@ -47,7 +47,7 @@ class ClassLabel:
     names: frozenset[str] = frozenset()
     """Labels and synonyms of the class, to recognise existing labels."""
     concept: str = ""
-    """Noun for the concept of the object, whatever its class; empty if it has none."""
+    """Noun for the concept of the object, independent of its class; empty if it has none."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -83,7 +83,7 @@ class LabelReport:
     outcomes: tuple[LabelOutcome, ...]
     """One per requested prim, by path."""
     de_instanced: tuple[str, ...] = ()
-    """Paths of the instances that the layer makes uninstanceable."""
+    """Paths of the instances for which the layer turns off instancing."""
 
     @cached_property
     def counts(self) -> Mapping[Outcome, int]:

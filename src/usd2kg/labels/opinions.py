@@ -1,4 +1,4 @@
-"""plan_opinions: the opinions that a layer needs on a prim to label it, without authoring anything."""
+"""plan_opinions: the opinions that label a prim, as a plan that authors nothing."""
 
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
@@ -96,7 +96,7 @@ def _complete(label: ClassLabel, options: LabelOptions, labels: list[LabelProper
 
 
 def _misspelt_class_properties(prim: Any, names: Iterable[str], time: Any) -> set[str]:
-    """Return the properties whose names no tool reads and that look like misspelt class labels."""
+    """Return the properties that look like misspelt class labels, which no tool reads."""
     intended = {name: meant_property(name) or name for name in names}
     class_instances = {
         instance

@@ -34,7 +34,7 @@ class PrimClass:
     is_reviewed: bool
     """Whether a person decided the class."""
     concept: str = ""
-    """Noun for the concept of the object, whatever its class; empty if it has none."""
+    """Noun for the concept of the object, independent of its class; empty if it has none."""
 
 
 @dataclass(frozen=True)
@@ -87,7 +87,7 @@ def _parse_confidence(where: str, prim_path: str, value: object) -> float | None
     """Return the confidence of a prim; None for None.
 
     Raises:
-        GroundingError: it is not a number from 0 to 1.
+        GroundingError: the confidence is not a number from 0 to 1.
     """
     if value is None:
         return None
@@ -152,7 +152,7 @@ def _read_graph(store: GraphStore, tbox: TBox) -> Iterator[tuple[str, PrimClass]
             raise GroundingError(message)
         types = [node for _, _, node, _ in graph.quads_for_pattern(subject, RDF.type, None, None)]
         if U2K.RoomGroup in types:
-            # A group that is a room by its name is no object, so the run had no class to find for it.
+            # A group that is a room by its name is not an object, so the run does not ground it.
             continue
         iri = _most_specific([node.value for node in types if isinstance(node, ox.NamedNode)], tbox)
         # The annotations of an object without a class are on the object itself.

@@ -42,8 +42,7 @@ def label_stage(
         options: see `LabelOptions`.
         style: one of `LABEL_STYLES`.
         has_ancestors: whether to write the superclasses as well.
-        min_confidence: classes below it, or without a confidence, are left out unless a person decided them; 0 keeps
-            all.
+        min_confidence: classes with a lower or no confidence are omitted unless a person decided them; 0 keeps all.
 
     Raises:
         SceneError: the scene cannot be read.
@@ -75,7 +74,7 @@ def label_session(
     """
     make = label_maker(tbox, style, has_ancestors=has_ancestors)
     labels, left_out = _make_labels(classes, make, min_confidence)
-    # Labels of an earlier call would count as existing ones.
+    # Labels of an earlier call would count as existing labels.
     remove_session_labels(stage)
     opinions = Sdf.Layer.CreateAnonymous()
     written = author_labels(stage, labels, opinions, options or LabelOptions())

@@ -24,7 +24,7 @@ _ERRORS = frozenset(
     tag-target-missing tag-target-no-class unreadable
     """.split()
 )
-"""Rules for single prims whose problems make tools read a wrong label or none; the others are warnings."""
+"""Single-prim rules that are errors, since tools would read a wrong label or none; other rules are warnings."""
 _EXPECTED = {
     "encodings-contradict": "one class in all encodings",
     "isaac-half": "both semanticType and semanticData under one instance name",
@@ -124,7 +124,7 @@ def _group_prims(values: Iterable[tuple[LabelledPrim, list[str]]]) -> Mapping[st
 
 
 def _prim_count(paths: list[str]) -> str:
-    """Return how many prims share a problem, for the end of a message; empty for one."""
+    """Return a message suffix with the number of prims that share a problem; empty for one prim."""
     return "" if len(paths) == 1 else f", on {len(paths)} prims"
 
 
@@ -144,7 +144,7 @@ def _lint_names(survey: LabelSurvey, classes: ClassIndex) -> Iterator[Finding]:
             similar = classes.suggest(value)
             found = f"the label {value!r} names no class{_prim_count(paths)}"
             expected = f"the name of a class{f', such as {similar}' if similar else ''}"
-            advice = f"Write {similar} if that is meant." if similar else "Use a class name, or give its ontology."
+            advice = f"Write {similar} if it is intended." if similar else "Use a class name, or give its ontology."
             yield _finding(Severity.WARNING, "class-unknown", paths[0], found, expected, advice)
 
 

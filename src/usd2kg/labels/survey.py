@@ -80,7 +80,7 @@ def _read_labels(prim: Any, time: Any) -> tuple[Label, ...]:
     try:
         return read_labels(prim, time)
     except UNREADABLE:
-        # find_problems reports it.
+        # `find_problems` reports this prim.
         return ()
 
 

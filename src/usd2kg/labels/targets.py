@@ -13,7 +13,7 @@ class LabelTarget(NamedTuple):
     prim: Any
     """None if a layer cannot label it."""
     reason: str = ""
-    """Why it cannot be labelled; empty if it can."""
+    """Why the prim cannot be labelled; empty if it can."""
     instances: tuple[str, ...] = ()
     """Paths of the instances around it, outermost first, which must be made uninstanceable."""
 
@@ -42,7 +42,7 @@ def _prim_at(stage: Any, prim_path: str) -> Any:
 
 
 def _find_obstacle(prim: Any, prim_path: str) -> str:
-    """Return why a prim cannot be labelled, instancing aside; empty if it can."""
+    """Return why a prim cannot be labelled, apart from instancing; empty if it can."""
     if not prim:
         is_instance = prim_path.endswith("]")
         return "an instance of a point instancer is not a prim" if is_instance else "no such prim on the stage"

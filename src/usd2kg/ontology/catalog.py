@@ -29,7 +29,7 @@ def find_document(iri: str, folder: Path) -> Path | None:
 
 
 def _may_be_opened(path: Path, folder: Path) -> bool:
-    """Return whether a file that an untrusted catalog names is in its folder, or has the ending of an ontology."""
+    """Return whether a file named by an untrusted catalog is in its folder or has the extension of an ontology."""
     target = path.resolve()
     return target.is_relative_to(folder.resolve()) or target.suffix.lower() in ENDINGS
 

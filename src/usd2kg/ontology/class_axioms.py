@@ -109,7 +109,7 @@ class ClassAxioms:
         same = set(names) - TOP_CLASSES - {_NOTHING}
         self.classes |= same
         if len(same) > 1:
-            # Pairs with one of them are enough: equivalence is transitive, and all pairs would be quadratic.
+            # Pairs with the first class suffice: equivalence is transitive, and all pairs would be quadratic.
             first = min(same)
             for name in same - {first}:
                 self.equivalents[first].add(name)

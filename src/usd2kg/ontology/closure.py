@@ -61,7 +61,7 @@ def _read(path: Path, also: Iterable[str]) -> Closure:
             found.setdefault(part.digest, part)
     documents = list(found.values())
     known = {iri for document in documents for iri in (document.iri, document.version_iri)}
-    # A document may declare another IRI than the one it is imported by.
+    # The IRI that a document declares may differ from the IRI by which it is imported.
     missing |= {
         iri
         for document in documents

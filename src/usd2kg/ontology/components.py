@@ -1,4 +1,4 @@
-"""Strongly connected components of a class hierarchy, so that traversals meet no cycle."""
+"""Strongly connected components of a class hierarchy, for traversal without cycles."""
 
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass

@@ -30,8 +30,8 @@ def fetch_ontology(
 ) -> Path:
     """Download the documents of an ontology with a catalog, and return the file to load; write a built-in one.
 
-    Documents that exist with the right hash are not downloaded. All are downloaded before any is written, so that the
-    folder never holds half of a new version.
+    Documents that exist with the right hash are not downloaded. All documents are downloaded before any is written, so
+    that the folder never contains a partial version.
 
     Args:
         ontology: the registry entry.

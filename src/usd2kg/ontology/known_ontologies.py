@@ -43,7 +43,7 @@ class KnownOntology:
     documents: tuple[KnownDocument, ...]
     """The ontology itself first, then what it imports; empty if it cannot be fetched by name."""
     website: str = ""
-    """Where to get an ontology without documents that is not built in."""
+    """Where to get an ontology that has no documents and is not built in."""
     built_in: str = ""
     """Name of the data file of a built-in ontology."""
 

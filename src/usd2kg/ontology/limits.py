@@ -34,9 +34,9 @@ class NestingLimits:
     json_levels: int = 1_000
     """Objects and arrays of JSON-LD."""
     rdf_xml_levels: int = 10_000
-    """Elements of RDF/XML, which nests the items of a list in each other; the parser takes 0.5 s for as many."""
+    """Elements of RDF/XML, which nests list items in each other; the parser takes 0.5 s at this depth."""
     term_levels: int = 1_000
-    """Triple terms in each other, in Turtle, TriG, N-Triples and N-Quads."""
+    """Nested triple terms in Turtle, TriG, N-Triples and N-Quads."""
 
 
 @dataclass(frozen=True, slots=True)

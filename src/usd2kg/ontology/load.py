@@ -120,7 +120,7 @@ def _load(path: Path, name: str, roots: Iterable[str] | None, classes: Iterable[
 
 
 def _prefixes(own: ClassAxioms, scope: Iterable[str]) -> dict[str, str]:
-    """Return the prefixes of a document whose namespace is that of a class in scope; of several for one, the first."""
+    """Return the document's prefixes for the namespaces of the classes in scope; the first prefix per namespace."""
     namespaces = {iri.removesuffix(local_name(iri)) for iri in scope}
     named = {
         namespace: name

@@ -32,11 +32,11 @@ class OntologyClass:
 
     iri: ClassIRI
     label: str
-    """The preferred label, else the local name."""
+    """The preferred label, otherwise the local name."""
     alt_labels: tuple[str, ...]
     """Further labels and synonyms, including those of equivalent classes, sorted."""
     comment: str
-    """Definition or comment, else that of an equivalent class; empty if there is none."""
+    """Definition or comment, otherwise that of an equivalent class; empty if there is none."""
     parents: tuple[ClassIRI, ...]
     """Nearest superclasses in the scope, sorted; empty for a root."""
     dispositions: tuple[str, ...] = ()

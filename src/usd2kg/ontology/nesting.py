@@ -1,7 +1,7 @@
 """Protection against deeply nested documents.
 
 The parsers of OWL, JSON-LD and triple terms recurse without a limit: a document of a few kilobytes overflows the stack,
-which ends the process. The parser of RDF/XML takes time in the square of the depth.
+which ends the process. The parser of RDF/XML takes time quadratic in the depth.
 """
 
 import re
@@ -88,7 +88,7 @@ def _check_xml(text: str, limit: int) -> None:
     try:
         parser.Parse(text, True)
     except expat.ExpatError:
-        # The parser that reads the document reports what is malformed.
+        # The actual parser of the document reports syntax errors.
         return
 
 
@@ -112,7 +112,7 @@ def _check_json(chunks: Iterable[bytes]) -> None:
 
 
 def _check_terms(chunks: Iterable[bytes]) -> None:
-    """Count the triple terms that start before one ends: only their last part, the object, may be another one."""
+    """Count the triple terms that start before one ends; only the object of a triple term may be a triple term."""
     level, rest = 0, b""
     for chunk in chunks:
         data = rest + chunk

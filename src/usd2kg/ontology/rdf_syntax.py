@@ -26,7 +26,7 @@ _FORMATS = {
 }
 
 _XMLNS = re.compile(r"xmlns:([\w.-]+)\s*=\s*[\"']([^\"'&<>]+)[\"']")
-"""A prefix of an XML document, without those that need entities."""
+"""Prefix declaration of an XML document; declarations that use entities do not match."""
 _Triples = dict[Any, dict[str, list[Any]]]
 """Subject → predicate IRI → objects."""
 
@@ -55,7 +55,7 @@ def read_rdf_axioms(text: str, syntax: str) -> ClassAxioms:
     quads = parse_rdf(text, syntax)
     for quad in quads:
         triples[quad.subject][quad.predicate.value].append(quad.object)
-    # The parser of RDF/XML does not tell them.
+    # The RDF/XML parser does not report prefixes.
     declared = _XMLNS.findall(text) if syntax == "rdf" else quads.prefixes.items()
     axioms = ClassAxioms(prefixes=dict(declared))
     for subject, statements in triples.items():
@@ -116,7 +116,7 @@ def _is_intersection(node: Any, triples: _Triples) -> bool:
 
 
 def _conjuncts(node: Any, triples: _Triples) -> Iterator[Any]:
-    """Yield the parts of an intersection, those of intersections in it included; any other node is its only part."""
+    """Yield the conjuncts of an intersection, with nested ones flattened; another node is its only conjunct."""
     pending, seen = [node], set()
     while pending:
         part = pending.pop()

@@ -213,6 +213,6 @@ class AxiomIndex:
         return ranked[0][1] if ranked else compact_iri(iri)
 
     def named(self, iri: str) -> str:
-        """Return the label and the CURIE or IRI of a term: “Cup” (soma:Cup); only the latter if it has no label."""
+        """Return the label and the CURIE or IRI of a term: “Cup” (soma:Cup); without a label, only the CURIE or IRI."""
         label, short = self.label(iri), compact_iri(iri)
         return short if label == short else f"“{label}” ({short})"

@@ -30,7 +30,7 @@ __all__ = [
 
 Vector = tuple[float, float, float]
 SHOWN = 3
-"""Number of examples that a finding about many objects names."""
+"""Number of examples in a finding about many objects."""
 
 
 class PlacedBoxes(NamedTuple):
@@ -55,11 +55,11 @@ class CheckedScene:
     objects: list[GraphObject]
     classes: ObjectClasses
     rules: Rules
-    """All rules, since some share lists of kinds."""
+    """All rules, since some checks use the word lists of other rules."""
     has_probabilities: bool
     """Whether confidences are calibrated probabilities; otherwise they are only scores."""
     metres_per_unit: float | None
-    """Length of one unit of the stage, as the graph states it."""
+    """Metres per stage unit, as stated in the graph."""
 
     @cached_property
     def by_iri(self) -> dict[str, GraphObject]:
@@ -75,7 +75,7 @@ class CheckedScene:
         return PlacedBoxes(tuple(obj for obj, _, _ in placed), centers - halves, centers + halves)
 
     def divided_by(self, scale: float) -> "CheckedScene":
-        """Return the scene with all lengths divided by a number; masses stay."""
+        """Return the scene with all lengths divided by a number; masses are unchanged."""
         objects = [
             replace(
                 obj,
@@ -132,7 +132,7 @@ def size_text(size: Vector) -> str:
 
 
 def length_text(metres: float) -> str:
-    """Return a length with a unit of its magnitude.
+    """Return a length in a unit that suits its magnitude.
 
     >>> length_text(344000), length_text(12.34), length_text(0.4), length_text(0.0042)
     ('344 km', '12.3 m', '40 cm', '4.2 mm')
@@ -151,6 +151,6 @@ def volume_of(size: Vector) -> float:
 
 
 def is_nested(first: GraphObject, second: GraphObject) -> bool:
-    """Return whether one prim is below the other: a group of one object has the box of that object."""
+    """Return whether one prim is below the other; a group with one object has the same box as the object."""
     paths = f"{first.prim_path}/", f"{second.prim_path}/"
     return paths[0].startswith(paths[1]) or paths[1].startswith(paths[0])

@@ -40,6 +40,6 @@ def _split(scene: CheckedScene, concept: str, groups: list[list[GraphObject]], r
 
 
 def _are_related(classes: ObjectClasses, first: tuple[str, ...], second: tuple[str, ...]) -> bool:
-    """Return whether one of the classes of each is a subclass of one of the other's."""
+    """Return whether a class of one object is a subclass of a class of the other."""
     above = [{up for cls in group for up in classes.closure(cls)} for group in (first, second)]
     return not above[0].isdisjoint(second) or not above[1].isdisjoint(first)

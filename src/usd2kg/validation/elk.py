@@ -28,7 +28,7 @@ JARS_VARIABLE = "USD2KG_ELK_JARS"
 _DEFAULT_JARS = Path("build/elk")
 _TIMEOUT_S = 600.0
 _MAX_SHOWN = 300
-"""Characters of Java's error in a message."""
+"""Maximum length of a Java error in a message, in characters."""
 
 
 @dataclass(frozen=True)
@@ -37,7 +37,7 @@ class ElkClash:
 
     iri: str
     statements: tuple[str, ...]
-    """A minimal inconsistent set of the graph's assertions about it, in words."""
+    """A minimal inconsistent set of assertions about the individual, in words."""
     impossible: str | None
     """The unsatisfiable class that alone explains the contradiction; None if there is none."""
 

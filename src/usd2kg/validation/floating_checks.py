@@ -1,4 +1,4 @@
-"""Checks for objects in the air and for floors that bear nothing, from boxes and relations."""
+"""Checks for floating objects and for floors that support nothing, from boxes and relations."""
 
 from collections import Counter
 from collections.abc import Iterator
@@ -15,16 +15,16 @@ from usd2kg.validation.plausibility_rules import Rule
 __all__ = ["check_floors", "check_in_the_air"]
 
 _LEVEL_STEP = 0.05
-"""Metres: heights of the ground are counted in steps of this."""
+"""Bin width for the height of the ground, metres."""
 _HANGING = frozenset({"wall", "ceiling", "part"})
-"""Stances of objects that hang, or are held by another object."""
+"""Stances of objects that hang or are held by another object."""
 
 
 class _Gaps(NamedTuple):
-    """For each object without a supporter: what is below it."""
+    """For each object without a supporter, the surface below it."""
 
     is_held: NDArray[np.bool_]
-    """Whether a box reaches up to it, or a much larger object or a wall touches it."""
+    """Whether a box below reaches it, or a much larger object or a wall touches it."""
     gap: NDArray[np.float64]
     """Metres to the next surface below; infinite if there is none."""
     surface: NDArray[np.int64]
@@ -34,7 +34,7 @@ class _Gaps(NamedTuple):
 def check_in_the_air(scene: CheckedScene, rule: Rule) -> Iterator[Implausible]:
     """Yield the objects that nothing supports, contains or holds, with the gap to the next surface below.
 
-    If they are more than a share of the scene, one violation counts them.
+    If they exceed a share of the scene, a single violation counts them.
     """
     boxes = scene.boxes
     free = [i for i, obj in enumerate(boxes.objects) if _is_free(scene, obj, rule)]
@@ -44,7 +44,7 @@ def check_in_the_air(scene: CheckedScene, rule: Rule) -> Iterator[Implausible]:
     for row, index in enumerate(free):
         surface = int(gaps.surface[row])
         gap = float(gaps.gap[row]) if surface >= 0 else float(boxes.lower[index, 2]) - ground
-        # Things of an unknown kind that are high above everything usually hang.
+        # Objects of an unknown kind high above everything else usually hang.
         is_known = bool(scene.classes.stances(boxes.objects[index]))
         most = rule.number("most_gap" if is_known else "most_unknown_gap")
         if gaps.is_held[row] or not rule.number("gap") < gap <= most:
@@ -72,7 +72,7 @@ def _summarize(scene: CheckedScene, rule: Rule, found: list[tuple[GraphObject, f
 
 
 def _is_free(scene: CheckedScene, obj: GraphObject, rule: Rule) -> bool:
-    """Return whether the graph states nothing that holds an object, and objects of its kind do not hang."""
+    """Return whether an object has no supporter, container or holder in the graph and its kind does not hang."""
     if obj.supporters or obj.containers or obj.holders:
         return False
     return _HANGING.isdisjoint(scene.classes.stances(obj)) and not scene.classes.is_a(
@@ -94,7 +94,7 @@ def _measure_gaps(scene: CheckedScene, rule: Rule, free: NDArray[np.int64]) -> _
     may_hold = is_structure & ~is_hollow
     wider = lower[free, :2] - contact, upper[free, :2] + contact
     for row, other in overlapping_pairs(*wider, (lower[:, :2], upper[:, :2])):
-        # In a pile nearly all pairs are of boxes that neither bear nor hold each other.
+        # In a pile, most pairs are boxes that do not support or hold each other.
         some = may_hold[other] | (lower_z[other] < bottom_z[row]) | (volumes[other] > hold_volume[row])
         row, other = row[some], other[some]  # noqa: PLW2901
         some = (free[row] != other) & ~is_hollow[other]
@@ -107,7 +107,7 @@ def _measure_gaps(scene: CheckedScene, rule: Rule, free: NDArray[np.int64]) -> _
         is_borne = is_over & (lower[other, 2] < bottom) & (top >= bottom - reach)
         np.logical_or.at(held, row, is_borne | (touches & is_fixture))
         is_below = is_over & (top < bottom - reach)
-        # Of equally high surfaces the first object's counts.
+        # Among equally high surfaces, the first object wins.
         nearest = np.lexsort((other[is_below], (bottom - top)[is_below]))[::-1]
         rows, distances, others = (values[is_below][nearest] for values in (row, bottom - top, other))
         is_nearer = distances < gap[rows]
@@ -116,7 +116,7 @@ def _measure_gaps(scene: CheckedScene, rule: Rule, free: NDArray[np.int64]) -> _
 
 
 def _ground_level(scene: CheckedScene, bottoms: NDArray[np.float64]) -> float:
-    """Return the height of the ground in metres: the lowest floor, else where most objects without a floor begin."""
+    """Return the ground height in metres: the lowest floor, otherwise the most common bottom of unsupported objects."""
     tops = [float(scene.boxes.upper[i, 2]) for i in _floors(scene)]
     if tops:
         return min(tops)

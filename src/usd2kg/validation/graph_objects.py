@@ -29,7 +29,7 @@ class GraphObject:
     label: str
     prim_path: str
     classes: tuple[str, ...]
-    """IRIs of the classes that it was grounded to, sorted, without the generic ones of every object."""
+    """IRIs of the grounded classes, sorted, without the generic classes of every object."""
     size: Vector | None
     """Extents of the world box along x, y and z, metres."""
     center: Vector | None
@@ -40,15 +40,15 @@ class GraphObject:
     """Quaternion x y z w."""
     mass_kg: float | None
     confidence: float | None
-    """Confidence of the class, 0 to 1; None if it has none."""
+    """Confidence of the class, 0 to 1; None if not stated."""
     supporters: tuple[str, ...]
-    """IRIs of the objects that it is on, sorted."""
+    """IRIs of the supporting objects, sorted."""
     containers: tuple[str, ...]
-    """IRIs of the objects that it is inside, sorted."""
+    """IRIs of the containing objects, sorted."""
     holders: tuple[str, ...]
-    """IRIs of the objects that it is attached to, or a part of, or a joint moves or fixes, sorted."""
+    """IRIs of its wholes, of the objects it is attached to, and of the joints that move or fix it, sorted."""
     concept: str | None
-    """IRI of the concept that its words name; None if it has none, or one that is more likely wrong than right."""
+    """IRI of the concept named by the object's words; None if there is none, or if it is probably wrong."""
 
     @property
     def own_size(self) -> Vector | None:
@@ -82,7 +82,7 @@ def read_graph_objects(store: ox.Store) -> list[GraphObject]:
     paths = {
         node: [path for path in own if isinstance(path, ox.Literal)]
         for node, own in values_of(store, U2K.primPath).items()
-        # A blank node is not an object that a finding could name.
+        # Skip blank nodes: a finding could not refer to them.
         if isinstance(node, ox.NamedNode) and node not in rooms
     }
     objects = [reader.read(node, own[0]) for node, own in paths.items() if own]
@@ -195,7 +195,7 @@ def _confidences(store: ox.Store) -> Iterator[tuple[Any, float]]:
 
 
 def find_owner(store: ox.Store, node: Any, objects: Mapping[str, GraphObject]) -> GraphObject | None:
-    """Return the object to which a node belongs (its box, its mass, the annotation of its class); None if to none."""
+    """Return the object that owns a node (its box, its mass, the annotation of its class); None if there is none."""
     seen, pending = {node}, [node]
     for _ in range(_MAX_STEPS):
         for each in pending:

@@ -50,7 +50,7 @@ def check_support_smaller(scene: CheckedScene, rule: Rule) -> Iterator[Implausib
 
 
 def _has_legs(scene: CheckedScene, obj: GraphObject) -> bool:
-    """Return whether an object is on several supporters that are all smaller, as a table top on slim legs."""
+    """Return whether an object rests on several smaller supporters, like a table top on slim legs."""
     supports = [scene.by_iri[iri] for iri in obj.supporters if iri in scene.by_iri]
     return len(supports) > 1 and all(
         support.size is not None and obj.size is not None and volume_of(support.size) < volume_of(obj.size)
@@ -78,7 +78,7 @@ def check_support_odd(scene: CheckedScene, rule: Rule) -> Iterator[Implausible]:
 
 
 def check_inside_smaller(scene: CheckedScene, rule: Rule) -> Iterator[Implausible]:
-    """Yield objects too large for their container; the longest extent alone is no reason: spoons stick out of pots."""
+    """Yield objects too large for their container; a longer extent alone is acceptable: spoons stick out of pots."""
     slack, ratio = rule.number("slack"), rule.number("volume_ratio")
     for obj, container in scene.contents():
         if obj.size is None or container.size is None:

@@ -65,7 +65,7 @@ class ObjectClasses:
         return " and ".join(self.label(cls) for cls in obj.classes) or "without a class"
 
     def kind(self, obj: GraphObject) -> str:
-        """Return what an object is, for messages: the label of its concept, else of its classes."""
+        """Return the kind of an object, for messages: the label of its concept, otherwise of its classes."""
         return self.concepts.label(obj.concept) if obj.concept is not None else self.names(obj)
 
     def stances(self, obj: GraphObject) -> frozenset[str]:
@@ -81,7 +81,7 @@ class ObjectClasses:
         return self.match(obj, rule, words, classes) is not None
 
     def match(self, obj: GraphObject, rule: Rule, words: str, classes: str | None = None) -> str | None:
-        """Return the label by which an object is of a kind that a rule lists: its own, a superclass's or a hypernym's.
+        """Return the label that matches a kind listed by a rule: the object's own, a superclass's or a hypernym's.
 
         Args:
             obj: the object.

@@ -1,4 +1,4 @@
-"""Concepts of objects: labels, hypernyms, and what everyday_objects.csv states about them."""
+"""Concepts of objects: labels, hypernyms, and their rows in everyday_objects.csv."""
 
 from functools import cache
 

@@ -44,7 +44,7 @@ def check_duplicates(scene: CheckedScene, rule: Rule) -> Iterator[Implausible]:
 def check_interpenetration(scene: CheckedScene, rule: Rule) -> Iterator[Implausible]:
     """Yield pairs of objects whose boxes are largely the same space, without a relation that explains it."""
     boxes, volumes = scene.boxes, scene.boxes.volumes
-    # Duplicates are reported by their own rule, and would be too many pairs.
+    # Duplicates have their own rule, and would give too many pairs.
     chosen = np.array(
         [group[0] for group in _same_place(scene, scene.rules["duplicate"].number("tolerance"))],
         np.int64,
@@ -67,7 +67,7 @@ def check_interpenetration(scene: CheckedScene, rule: Rule) -> Iterator[Implausi
 
 
 def _is_solid(scene: CheckedScene, obj: GraphObject, rule: Rule) -> bool:
-    """Return whether the box of an object is a fair measure of its space."""
+    """Return whether the box of an object approximates its volume well."""
     if scene.classes.is_a(obj, rule, "hollow_words", "hollow") or obj.size is None:
         return False
     if max(obj.size) < rule.number("least_extent"):

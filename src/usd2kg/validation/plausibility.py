@@ -43,7 +43,7 @@ class SkippedCheck(NamedTuple):
 
     rules: tuple[str, ...]
     reason: str
-    """What the graph lacks, and how to add it."""
+    """The missing facts, and how to add them."""
 
 
 def find_implausible(scene: CheckedScene) -> Iterator[RuleViolation]:
@@ -88,7 +88,7 @@ class _Need(NamedTuple):
     reason: str
 
 
-_RELATE = "if its relations were left out, build it with usd2kg build --relation-kinds default"
+_RELATE = "if the graph was built without relations, use usd2kg build --relation-kinds default"
 _NEEDS: Mapping[str, _Need] = {
     "boxes": _Need(
         lambda scene: bool(scene.boxes.objects), "no object has a box; check usd2kg inspect for missing geometry"

@@ -1,4 +1,4 @@
-"""Checks of relations: circles, contradictory containers, and relations between objects that are far apart."""
+"""Checks of relations: cycles, contradictory containers, and relations between objects that are far apart."""
 
 import math
 from collections.abc import Iterable, Iterator
@@ -25,11 +25,11 @@ __all__ = [
 ]
 
 _MAX_STEPS = 6
-"""Number of steps of a circle that a finding names."""
+"""Maximum number of steps of a cycle in a finding."""
 
 
 def check_circles(scene: CheckedScene, rule: Rule) -> Iterator[Implausible]:
-    """Yield one violation for each group of objects that are on or inside each other in a circle."""
+    """Yield one violation for each group of objects that are on or inside each other in a cycle."""
     edges = {
         obj.iri: {iri for iri in (*obj.supporters, *obj.containers) if iri in scene.by_iri} for obj in scene.objects
     }
@@ -40,7 +40,7 @@ def check_circles(scene: CheckedScene, rule: Rule) -> Iterator[Implausible]:
             circle = _shortest_circle(first.iri, edges, set(group))
             found = _circle_text([scene.by_iri[iri] for iri in circle])
             if len(members) > len(circle):
-                found += f"; {len(members)} objects are in this and overlapping circles"
+                found += f"; {len(members)} objects are in this and overlapping cycles"
             yield Implausible(first, found, "an order from the lowest supporter up")
 
 

@@ -15,7 +15,7 @@ from usd2kg.validation.plausibility_rules import Rule
 __all__ = ["check_room_size", "check_scale", "check_unusual_size", "scale_of"]
 
 _UNITS = (1.0, 0.01, 0.001, 0.0254, 0.3048, 0.1, 10.0, 100.0, 1000.0)
-"""Lengths of a stage's unit in metres that are proposed, the common ones first."""
+"""Candidate values of metersPerUnit to propose, common ones first."""
 
 
 class _UsualSize(NamedTuple):
@@ -72,7 +72,7 @@ def _measured(scene: CheckedScene) -> list[_Measured]:
 
 
 def scale_of(scene: CheckedScene) -> float | None:
-    """Return the median ratio of sizes to usual sizes; None if it is plausible, or too few sizes are known."""
+    """Return the median ratio of measured to usual sizes; None if it is plausible, or too few sizes are known."""
     rule = scene.rules["scene-scale"]
     measured = _measured(scene)
     if len(measured) < rule.number("fewest"):
@@ -111,7 +111,7 @@ def _expected_unit(scene: CheckedScene, scale: float) -> str:
 
 
 def _check_extent(scene: CheckedScene, rule: Rule) -> Iterator[Implausible]:
-    """Yield a violation if the scene is tiny or huge, apart from a few lost objects."""
+    """Yield a violation if the scene is tiny or huge, ignoring outliers."""
     boxes = scene.boxes
     if len(boxes.objects) < rule.number("fewest"):
         return

@@ -132,7 +132,7 @@ class _Run:
             )
 
     def scene(self, rules: Rules) -> CheckedScene:
-        """Return the objects with what the plausibility checks need."""
+        """Return the objects prepared for the plausibility checks."""
         calibrated = values_of(self._store, U2K.isCalibrated).values()
         units = [v.value for values in values_of(self._store, U2K.metresPerUnit).values() for v in values]
         unit = parse_numbers(units[0]) if len(units) == 1 else ()
