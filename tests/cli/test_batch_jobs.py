@@ -18,7 +18,7 @@ from tests.cli.conftest import Run
 from tests.evaluation.conftest import omit_png_and_pdf
 from tests.grounding.llm.batch_servers import BatchServer, Reply, Row, serve_batches
 from tests.scene.usda import component, cube, xform
-from usd2kg.grounding.llm.batch_jobs import desk
+from usd2kg.grounding.llm.batch_jobs import queue
 from usd2kg.grounding.llm.cache import CompletionCache
 
 KEY = "sk-very-secret-4711"
@@ -29,7 +29,7 @@ GOLD = "path,class\n/Room/Table_1,Table\n/Room/coffee_mug,Cup\n/Room/FruitBowl,B
 def own_cache(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setenv("USD2KG_CACHE", str(tmp_path / "said.sqlite"))
     monkeypatch.setenv("OPENAI_API_KEY", KEY)
-    monkeypatch.setattr(desk, "LIMITS", replace(desk.LIMITS, first_poll_s=0.01, job_settle_s=0.0))
+    monkeypatch.setattr(queue, "LIMITS", replace(queue.LIMITS, first_poll_s=0.01, job_settle_s=0.0))
 
 
 @pytest.fixture
@@ -64,7 +64,7 @@ def test_prompts_are_one_job_at_half_the_price(run: Run, kitchen: Path, server: 
     assert done.code == 0, done.err
     assert classes(done.out) == {"Cup"}
     assert "batch job batch_1: 2 prompts submitted to http://" in done.err
-    assert "ended 0:00:00 after its submission: 2 of 2 answers" in done.err
+    assert re.search(r"ended 0:00:\d\d after its submission: 2 of 2 answers", done.err)
     # 100 tokens each, at half a cent.
     assert "2 new completions, 0 cached" in done.err and "200 input tokens" in done.err and "$1.00, " in done.err
     assert KEY not in done.out + done.err
@@ -109,7 +109,7 @@ def test_failed_rows_are_reported(run: Run, kitchen: Path, server: BatchServer):
     done = run("ground", kitchen, "--grounder", model(server), "--batch")
 
     assert done.code == 2
-    assert "0 of 2 answers, 2 failed, the first one: the batch request was expired" in done.err.replace(
+    assert "0 of 2 answers, 2 failed, the first with: the batch request was expired" in done.err.replace(
         "The batch", "the batch"
     )
     assert "the same command submits it again" in done.err
@@ -174,9 +174,9 @@ def test_open_jobs_are_listed_and_can_be_forgotten(run: Run, kitchen: Path, serv
     listed = run("completions", "jobs")
     assert re.search(r"batch_1 +openai:test@http\S+ +2 +20", listed.out)
     assert json.loads(run("completions", "jobs", "--json").out)[0]["prompts"] == 2
-    assert "is forgotten, with 2 prompts" in run("completions", "forget", "batch_1").err
+    assert "discarded, with 2 prompts" in run("completions", "forget", "batch_1").err
     assert json.loads(run("completions", "jobs", "--json").out) == []
-    assert "expected one of usd2kg completions jobs" in run("completions", "forget", "batch_1").err
+    assert "expected one listed by usd2kg completions jobs" in run("completions", "forget", "batch_1").err
 
 
 @pytest.mark.parametrize(
@@ -207,11 +207,14 @@ def test_an_interrupt_keeps_the_job_and_the_next_run_fetches_its_answers(
     server.intercept = interrupt
     stopped = run("ground", kitchen, "--grounder", model(server), "--batch")
     assert stopped.code == 130
-    assert "batch job batch_1 (2 prompts): still at the service; the same command fetches its answers" in stopped.err
+    assert (
+        "batch job batch_1 (2 prompts): still running at the service; the same command fetches its answers"
+        in stopped.err
+    )
     server.polls, server.intercept = 1, lambda method, path: None
     done = run("ground", kitchen, "--grounder", model(server), "--batch")
     assert classes(done.out) == {"Cup"}
-    assert "batch job batch_1: 2 prompts are at http" in done.err
+    assert "batch job batch_1: 2 prompts running at http" in done.err
     assert len(server.jobs) == 1
 
 
@@ -224,8 +227,8 @@ _IMPATIENT = f"""
 from dataclasses import replace
 from pydantic_ai.models.openai import OpenAIResponsesModel
 from usd2kg.cli.app import main
-from usd2kg.grounding.llm.batch_jobs import desk
-desk.LIMITS = replace(desk.LIMITS, first_poll_s=0.01, max_poll_s=0.01, job_settle_s=0.0)
+from usd2kg.grounding.llm.batch_jobs import queue
+queue.LIMITS = replace(queue.LIMITS, first_poll_s=0.01, max_poll_s=0.01, job_settle_s=0.0)
 OpenAIResponsesModel.batch_max_requests = {JOB_SIZE}
 main()
 """

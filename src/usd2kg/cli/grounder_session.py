@@ -43,10 +43,10 @@ class GrounderSession:
         return [undecided[index] for index in self.cascade.find_uncertain(self.offline.ground_views(undecided, tbox))]
 
     def report(self, grounding: "Grounding", tbox: "TBox") -> None:
-        """Print to stderr what each tier decided and cost, and write the review queue and the alignment.
+        """Print the decisions and cost of each tier to stderr, and write the review queue and the alignment.
 
         Raises:
-            GroundingError: see `check_completions`; all else is printed and written before.
+            GroundingError: see `check_completions`; raised after everything is printed and written.
         """
         from usd2kg.cli.model_report import report_cost, report_tiers  # noqa: PLC0415
         from usd2kg.grounding import find_uncertain, format_queue  # noqa: PLC0415
@@ -69,13 +69,13 @@ class GrounderSession:
             return
         text, count, left_out = self.model.format_alignment(tbox)
         emit(text, target)
-        notify(f"{count} rows for --alignment in {target}; {left_out} left out, since their answers differ")
+        notify(f"{count} rows for --alignment in {target}; {left_out} omitted because of conflicting answers")
 
     def check_completions(self) -> None:
         """Check that the model completed at least one prompt of the run, if there were any.
 
         Raises:
-            GroundingError: all prompts failed, for example because the key is refused.
+            GroundingError: all prompts failed, for example because the key is rejected.
         """
         if self.model is None:
             return
@@ -83,12 +83,12 @@ class GrounderSession:
         if report.first_failure and not (report.completions or report.cached or report.is_interrupted):
             raise GroundingError(
                 f"{self.options.grounder}: the model completed none of {report.prompts} prompts "
-                f"({report.first_failure}); the classes that were written are without it"
+                f"({report.first_failure}); the output contains no classes from the model"
             )
 
 
 def show_progress(options: GroundingOptions, *steps: str, is_wanted: bool = True) -> AbstractContextManager[None]:
-    """Return a context that shows a bar of steps; none for a language model, which has a line of its own."""
+    """Return a context that shows a progress bar of steps, except for a language model, which has its own line."""
     from usd2kg.grounding import is_llm_name  # noqa: PLC0415 - slow to import
     from usd2kg.progress import show_steps  # noqa: PLC0415
 
@@ -112,7 +112,7 @@ def open_grounder_session(
         tbox: the classes of the decisions.
         source: the stage of the scene, to render thumbnails.
         reading: how the stage was read.
-        carry_over: where decisions come from that were made for an earlier version.
+        carry_over: options for decisions that were made for an earlier version.
 
     Raises:
         Usd2kgError: options exclude each other, or a file or model cannot be opened.
@@ -164,13 +164,13 @@ def _open_model(
     source: Path,
     reading: "ReadOptions",
 ) -> "Iterator[LLMGrounder]":
-    from usd2kg.grounding.llm.batch_jobs.desk import Reporting  # noqa: PLC0415
+    from usd2kg.grounding.llm.batch_jobs.queue import Reporting  # noqa: PLC0415
     from usd2kg.grounding.llm.factory import open_llm_grounder  # noqa: PLC0415
     from usd2kg.grounding.llm.few_shot_choice import choose_examples  # noqa: PLC0415
 
     asked = options.model
     if asked.examples and not decisions:
-        raise GroundingError("--examples shows decisions of a person; name their file with --decisions FILE")
+        raise GroundingError("--examples shows a person's decisions; give their file with --decisions FILE")
     with (
         Progress() as progress,
         open_llm_grounder(

@@ -110,21 +110,24 @@ def align_command(
     model: ModelName = None,
     subclasses: Annotated[
         Path | None,
-        Option("--subclasses", help="OWL file of subclasses to write, for what has only a coarse class in the scenes."),
+        Option(
+            "--subclasses",
+            help="OWL file of suggested subclasses to write, for objects in the scenes that only have a coarse class.",
+        ),
     ] = None,
     scenes: Annotated[
         list[Path] | None, Option("--scene", metavar="SCENE", help="USD stage for --subclasses. Repeatable.")
     ] = None,
 ) -> None:
-    """Write which concepts and words belong to which class, as SSSOM to edit and to pass to --alignment.
+    """Write an alignment of concepts and words with classes, as SSSOM to edit and to pass to --alignment.
 
-    With --model, a language model names what belongs to each class; its rows come before those that are built.
+    With --model, a language model names the members of each class; its rows take precedence over the built ones.
     """
     from usd2kg.files import check_apart, check_writable  # noqa: PLC0415
     from usd2kg.grounding.lexical.grounder import LexicalGrounder  # noqa: PLC0415
 
     if (subclasses is None) != (not scenes):
-        raise OntologyError("ontology align: --subclasses and --scene belong together; expected both, or neither")
+        raise OntologyError("ontology align: --subclasses and --scene require each other; expected both or neither")
     targets = [path for path in (output, subclasses) if path is not None]
     check_apart(targets, [file, *(scenes or [])])
     for target in targets:
@@ -156,11 +159,11 @@ def _print_questions(tbox: "TBox", output: Path | None) -> None:
 
 
 def _ask_model(model: str, requests: RequestOptions, tbox: "TBox") -> "list[AlignmentRow]":
-    """Return the rows of what a model says belongs to each class, and print their cost to stderr."""
+    """Return alignment rows from a model's answers about the members of each class, and print their cost to stderr."""
     from usd2kg.cli.model_report import report_prompts  # noqa: PLC0415
     from usd2kg.grounding.lexical.alignment.member_rows import rows_of_members  # noqa: PLC0415
     from usd2kg.grounding.lexical.concepts.taxonomy import load_taxonomy  # noqa: PLC0415
-    from usd2kg.grounding.llm.batch_jobs.desk import Reporting  # noqa: PLC0415
+    from usd2kg.grounding.llm.batch_jobs.queue import Reporting  # noqa: PLC0415
     from usd2kg.grounding.llm.class_members import ask_members, plan_questions  # noqa: PLC0415
     from usd2kg.grounding.llm.factory import open_metered_client  # noqa: PLC0415
 
@@ -195,7 +198,7 @@ def _suggest_classes(tbox: "TBox", grounder: "Grounder", scenes: list[Path], tar
 
 @app.command("known")
 def known_command(registry: _Registry = None, json: JsonOutput = False) -> None:
-    """List the ontologies that `ontology fetch` can download, or whose classes usd2kg ships an alignment of."""
+    """List the ontologies that `ontology fetch` can download or for which usd2kg ships an alignment."""
     from usd2kg.download import shown_address  # noqa: PLC0415
     from usd2kg.grounding.lexical.alignment.member_lists import count_listed_classes  # noqa: PLC0415
     from usd2kg.ontology import read_registry  # noqa: PLC0415
@@ -280,7 +283,7 @@ def _report_text(report: "OntologyReport") -> str:
         ("classes with a label of their own", report.labelled),
         ("with a definition or comment", report.described),
         ("with synonyms", report.with_synonyms),
-        ("whose meaning is known", report.meant),
+        ("with a known meaning", report.meant),
         ("found by their name alone", report.found_by_name),
         ("with several superclasses", report.several_parents),
     ]

@@ -9,7 +9,7 @@ from usd2kg.evaluation.matrix import Cell, Matrix
 from usd2kg.grounding import CascadeGrounder, Grounder, make_grounder
 
 if TYPE_CHECKING:
-    from usd2kg.grounding.llm.batch_jobs.desk import Reporting
+    from usd2kg.grounding.llm.batch_jobs.queue import Reporting
     from usd2kg.grounding.llm.factory import LLMSettings
     from usd2kg.grounding.llm.grounder import LLMGrounder
 
@@ -20,12 +20,12 @@ _FIRST_TIER = "lexical"
 
 @dataclass(frozen=True)
 class MatrixGrounders:
-    """The grounders of a matrix by name, as long as their connections are open."""
+    """The grounders of a matrix by name, with open connections."""
 
     offline: Mapping[str, Grounder]
     models: "Mapping[str, LLMGrounder]"
     price: str
-    """The price of tokens that the user states, and whether it is that of batch jobs; empty for list prices."""
+    """The user's token price, and whether it is for batch jobs; empty for list prices."""
 
     def grounder(self, cell: Cell) -> Grounder:
         """Return the grounder of a cell."""
@@ -34,7 +34,7 @@ class MatrixGrounders:
         return self.models.get(cell.grounder) or self.offline[cell.grounder]
 
     def model(self, cell: Cell) -> "LLMGrounder | None":
-        """Return the language model that a cell asks; None if it asks none."""
+        """Return the language model of a cell; None if it has none."""
         return self.models.get(cell.grounder)
 
 
@@ -49,9 +49,9 @@ def open_grounders(
 
     Args:
         matrix: the runs.
-        settings: of its language models, except for model and strategy; None for the defaults.
-        progress: called with the number of objects that a language model is done with and the total of a run.
-        reporting: what the user sees of batch jobs; None for log messages.
+        settings: settings of the language models, except for model and strategy; None for the defaults.
+        progress: called with the number of objects that a language model has completed and the total of a run.
+        reporting: callbacks for the progress of batch jobs; None for log messages.
 
     Raises:
         GroundingError: an extra, a key or a price is missing, or the cache cannot be opened.

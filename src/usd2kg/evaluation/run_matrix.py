@@ -23,7 +23,7 @@ from usd2kg.ontology import TBox, load_home_tbox, load_tbox
 from usd2kg.scene import Scene, read_scene
 
 if TYPE_CHECKING:
-    from usd2kg.grounding.llm.batch_jobs.desk import Reporting
+    from usd2kg.grounding.llm.batch_jobs.queue import Reporting
     from usd2kg.grounding.llm.factory import LLMSettings
 
 __all__ = ["CellResult", "SceneResult", "run_matrix"]
@@ -38,13 +38,13 @@ class CellResult:
     cell: Cell
     evaluation: Evaluation
     was_stored: bool
-    """Whether the answers were read from a file, not computed."""
+    """Whether the answers were read from a file instead of computed."""
     cost: ModelCost | None = None
-    """Tokens and dollars of a language model; None if the run asks none."""
+    """Tokens and dollars of a language model; None if the run uses none."""
 
     @property
     def failures(self) -> tuple[str, ...]:
-        """For each object that the grounder failed on, why: for instance, a server was down."""
+        """The reason for each object that the grounder failed on, such as a server that was down."""
         return tuple(score.explanation for score in self.evaluation.scores if score.status is Status.FAILED)
 
 
@@ -78,13 +78,13 @@ def run_matrix(
 
     Args:
         matrix: the runs. Optional scenes with missing files are skipped.
-        folder: where answers are stored.
-        settings: of the language models, except for model and strategy; None for the defaults. The budget is that of
-            all runs together.
+        folder: folder for the answers.
+        settings: settings of the language models, except for model and strategy; None for the defaults. All runs share
+            the budget.
         refresh: ignore stored answers.
         progress: called after each run.
-        model_progress: called with the number of objects that a language model is done with and the total of a run.
-        reporting: what the user sees of batch jobs; None for log messages.
+        model_progress: called with the number of objects that a language model has completed and the total of a run.
+        reporting: callbacks for the progress of batch jobs; None for log messages.
 
     Raises:
         Usd2kgError: a scene, its gold labels or a model cannot be opened.
@@ -108,14 +108,14 @@ def run_matrix(
                 continue
             results.append(runner.run_scene(spec, cells))
     keys = {key for result in results for done in result.cells if done.cost for key in done.cost.keys}
-    # A recording of more scenes, from a machine that has them, is kept.
+    # Keep a recording of more scenes, from a machine that has their files.
     if keys and not (skipped and (folder / RECORDING).exists()):
         write_recording(folder, settings, keys)
     return results
 
 
 class _Inputs(NamedTuple):
-    """What the runs on a scene have in common."""
+    """Inputs shared by the runs on a scene."""
 
     scene: Scene
     gold: tuple[GoldLabel, ...]
@@ -135,7 +135,7 @@ class _Runner:
     """The inputs of the scenes that have been read, by name."""
 
     def complete_prompts(self, cells: Iterable[Cell]) -> None:
-        """Have batch jobs complete the prompts of all runs together, so that there is one wait for all of them.
+        """Complete the prompts of all runs in common batch jobs, so that there is a single wait.
 
         A second round completes the repair prompts, which depend on answers.
         """
@@ -150,7 +150,7 @@ class _Runner:
                 model.collect_deferred()
 
     def _plan_cell(self, cell: Cell) -> None:
-        """Defer the prompts that a run lacks."""
+        """Defer the uncached prompts of a run."""
         model, inputs = self.grounders.model(cell), self._read(cell.scene)
         grounder = self.grounders.grounder(cell)
         if model is None or (not self.refresh and self._store(cell, inputs, grounder).exists()):
@@ -190,7 +190,7 @@ class _Runner:
             inputs.scene, inputs.gold, inputs.tbox, grounder, regime=cell.regime, evidence=cell.evidence
         )
         if model is not None and model.report.is_interrupted:
-            # The grounder ends an interrupted run with failures; the runs that follow must not start.
+            # The grounder ends an interrupted run with failures; later runs must not start.
             raise KeyboardInterrupt
         cost = ModelCost.from_report(model.report) if model is not None else None
         result = CellResult(cell, evaluation, was_stored=False, cost=cost)
@@ -212,7 +212,7 @@ def _read_stored(cell: Cell, inputs: _Inputs, store: Path) -> CellResult | None:
         seconds = float(data["seconds"])
         cost = ModelCost.from_json(data["model"]) if data["model"] is not None else None
     except (ValueError, TypeError, KeyError):
-        # Written by another version, or cut off.
+        # The file is truncated or was written by another version.
         return None
     grounding = read_grounding(store)
     evaluation = score_grounding(grounding, inputs.gold, inputs.tbox, seconds, missed=inputs.selection.missed)

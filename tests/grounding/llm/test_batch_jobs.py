@@ -14,8 +14,8 @@ from pydantic_ai.models.anthropic import AnthropicModel
 from tests.grounding.llm.batch_servers import BatchServer, Reply, Row, refuse, serve_batches
 from tests.grounding.llm.connections import KEYS, locate
 from usd2kg.errors import GroundingError
-from usd2kg.grounding.llm.batch_jobs.desk import BatchDesk, DeferredError, Reporting
 from usd2kg.grounding.llm.batch_jobs.journal import JobJournal
+from usd2kg.grounding.llm.batch_jobs.queue import BatchQueue, DeferredError, Reporting
 from usd2kg.grounding.llm.cache import CompletionCache
 from usd2kg.grounding.llm.clients import make_client
 from usd2kg.grounding.llm.completion import Completion, Finish, Request, Usage
@@ -48,8 +48,8 @@ class Session:
         self.client = make_client(at(server, model), environment=KEYS, sleep=self.slept.append)
         self.journal = JobJournal(self.cache)
         reporting = Reporting(self.said.append, lambda text: None, self.slept.append)
-        desk = BatchDesk(self.client.model, self.journal, self.client.open_batch_service(), reporting)
-        self.metered = MeteredClient(self.client, cache=self.cache, desk=desk, **options)
+        queue = BatchQueue(self.client.model, self.journal, self.client.open_batch_service(), reporting)
+        self.metered = MeteredClient(self.client, cache=self.cache, queue=queue, **options)
 
     def complete(self, *requests: Request) -> list[Completion | str]:
         """Return the completions, or why there are none, after as many jobs as it takes."""
@@ -177,7 +177,7 @@ def test_a_refused_submission_is_reported_and_forgotten(model: str, tmp_path: Pa
 
         (outcome,) = run.complete(about(1))
 
-        assert "the batch job is refused: status 403: no access to batches" in outcome
+        assert "the service rejected the batch job: status 403: no access to batches" in outcome
         assert run.journal.open_jobs() == []
 
 
@@ -188,7 +188,7 @@ def test_a_submission_without_a_response_is_looked_for_and_not_repeated(model: s
         with session(server, model, tmp_path) as run:
             outcomes = run.complete(about(1), about(2))
 
-            assert all("it is not known whether the batch job has arrived" in outcome for outcome in outcomes)
+            assert all("it is unknown whether the service received the batch job" in outcome for outcome in outcomes)
             assert [job.id for job in run.journal.open_jobs()] == [None]
         server.after_create = lambda job: None
         with session(server, model, tmp_path) as again:
@@ -235,13 +235,13 @@ def test_an_interrupt_during_the_wait_leaves_the_job_to_the_next_run(model: str,
             def interrupt(seconds: float) -> None:
                 raise KeyboardInterrupt
 
-            run.metered._desk._reporting = replace(run.metered._desk._reporting, sleep=interrupt)
+            run.metered._queue._reporting = replace(run.metered._queue._reporting, sleep=interrupt)
             with pytest.raises(KeyboardInterrupt):
                 run.metered.collect_deferred()
-            assert "still at the service; the same command fetches its answers" in run.said[-1]
+            assert "still running at the service; the same command fetches its answers" in run.said[-1]
         with session(server, model, tmp_path) as again:
             assert [one.text for one in again.complete(about(1))] == [CUP]
-            assert "prompts are at http" in again.said[0]
+            assert "prompts running at http" in again.said[0]
             assert again.metered.report.completions == 1
         assert server.asked == {"object 1": 1}
 

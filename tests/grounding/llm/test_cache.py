@@ -116,7 +116,7 @@ def test_rejects_requests_that_are_not_json(cache):
 def test_rejects_a_file_that_is_not_a_database_without_changing_it(tmp_path: Path):
     path = tmp_path / "cache.sqlite"
     path.write_bytes(b"not a database" * 100)
-    with pytest.raises(GroundingError, match=r"cache\.sqlite: is damaged or no cache .*not a database.*move it away"):
+    with pytest.raises(GroundingError, match=r"cache\.sqlite: is damaged or is not a cache .*not a database.*move it"):
         CompletionCache(path)
     assert path.read_bytes() == b"not a database" * 100
 

@@ -99,7 +99,7 @@ class TestCompatibleServers:
         assert attempts == 1
         assert text == (
             f"model 'openai:m@{url}': {url}: status 400: context of 4096 tokens exceeded; "
-            "expected a request that the server takes, check the model's limits and the options"
+            "the server rejected the request, check the model's limits and the options"
         )
 
     @pytest.mark.parametrize(

@@ -62,7 +62,7 @@ class TestRetries:
         assert attempts == 3
         assert text == (
             f"model '{locate(model, url)}': {endpoint(model, url)}: status 503 after 3 attempts: over loaded; "
-            "expected a server that works, try again later"
+            "the server failed, try again later"
         )
 
     @every_provider

@@ -1,4 +1,4 @@
-"""usd2kg eval reproduce: evaluation matrices, the study's among them, with reports."""
+"""usd2kg eval reproduce: evaluation matrices, including that of the study, with reports."""
 
 from collections.abc import Callable, Sequence
 from dataclasses import replace
@@ -44,14 +44,14 @@ def reproduce_command(
     """
     from usd2kg import evaluation  # noqa: PLC0415 - loads OpenUSD, too slow for --help
     from usd2kg.evaluation.report import write_report  # noqa: PLC0415
-    from usd2kg.grounding.llm.batch_jobs.desk import Reporting  # noqa: PLC0415
+    from usd2kg.grounding.llm.batch_jobs.queue import Reporting  # noqa: PLC0415
 
     plan = _plan(matrix, study)
     if not plan.language_models:
         limits.check_without_model(f"name one with {'--model MODEL' if study.study else 'a grounder llm-B:MODEL'}")
     for scene in plan.scenes:
         if scene.missing is not None:
-            notify(f"{scene.name} is left out: {scene.missing} does not exist")
+            notify(f"{scene.name} is skipped: {scene.missing} does not exist")
     total = sum(1 for cell in plan.cells() if cell.scene.missing is None)
     with Progress() as progress:
         results = evaluation.run_matrix(
@@ -76,17 +76,17 @@ def _plan(matrix: Path | None, study: StudyOptions) -> "Matrix":
     """Return the matrix of a file, or that of the study.
 
     Raises:
-        EvaluationError: both or neither are asked for, or the matrix is invalid.
+        EvaluationError: both or neither are given, or the matrix is invalid.
     """
     from usd2kg.evaluation import read_matrix  # noqa: PLC0415
 
     if study.study:
         if matrix is not None:
-            raise EvaluationError(f"{matrix}: --study has a matrix of its own; leave out one of the two")
+            raise EvaluationError(f"{matrix}: --study has its own matrix; leave out one of the two")
         return plan_study_matrix(study)
     study.check_unused()
     if matrix is None:
-        raise EvaluationError("no matrix is named; expected MATRIX, a TOML file, or --study")
+        raise EvaluationError("no matrix is given; expected MATRIX, a TOML file, or --study")
     return read_matrix(matrix)
 
 
@@ -107,7 +107,7 @@ def _check_complete(cells: "Sequence[CellResult]") -> None:
     """Check that no grounder failed on an object.
 
     Raises:
-        EvaluationError: one did; the message says why.
+        EvaluationError: a grounder failed; the message contains the reason.
     """
     incomplete = [cell.failures for cell in cells if cell.failures]
     if incomplete:

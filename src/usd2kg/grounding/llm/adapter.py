@@ -59,7 +59,7 @@ def make_parameters(
 
 
 def tool_parameters(request: Request) -> "ModelRequestParameters":
-    """Return the output format of an answer that is the arguments of a tool, which the model must call."""
+    """Return the output format of an answer given as the arguments of a required tool call."""
     from pydantic_ai.models import ModelRequestParameters  # noqa: PLC0415
     from pydantic_ai.tools import ToolDefinition  # noqa: PLC0415
 
@@ -69,7 +69,7 @@ def tool_parameters(request: Request) -> "ModelRequestParameters":
 
 
 def prompted_parameters(request: Request) -> "ModelRequestParameters":
-    """Return the output format of an answer in plain text, whose schema is part of the instructions."""
+    """Return the output format of a plain-text answer, with the schema in the instructions."""
     from pydantic_ai.models import ModelRequestParameters  # noqa: PLC0415
     from pydantic_ai.output import OutputObjectDefinition  # noqa: PLC0415
 
@@ -78,9 +78,9 @@ def prompted_parameters(request: Request) -> "ModelRequestParameters":
 
 
 def define_rows_once(schema: Mapping[str, Any]) -> dict[str, Any]:
-    """Return an answer schema that defines its rows once if their enums have more values than OpenAI allows.
+    """Return an answer schema that defines the row schema once if its enums exceed OpenAI's limit on enum values.
 
-    Otherwise the schema of each row stays in its place, which more servers understand.
+    Otherwise each row keeps its inline schema, which more servers support.
     """
     rows = list(schema.get("properties", {}).values())
     sizes = [len(value.get("enum", ())) for row in rows for value in row.get("properties", {}).values()]
@@ -93,7 +93,7 @@ def define_rows_once(schema: Mapping[str, Any]) -> dict[str, Any]:
 def make_settings(
     reference: ModelReference, provider_model: "Model[Any]", request: Request, asks_logprobs: bool
 ) -> dict[str, Any]:
-    """Return the model settings of a request, by the names of pydantic-ai."""
+    """Return the model settings of a request under their pydantic-ai names."""
     settings: dict[str, Any] = {"max_tokens": request.max_tokens}
     if accepts_temperature(provider_model, request.is_thinking):
         settings["temperature"] = request.temperature
@@ -107,7 +107,7 @@ def make_settings(
     if reference.provider == "anthropic":
         return settings | {"anthropic_cache_instructions": True} | _budget_reasoning(reference, provider_model, request)
     if reference.provider == "bedrock":
-        # It has no seed.
+        # Bedrock has no seed parameter.
         return settings | {"bedrock_cache_instructions": True}
     if reference.is_openai_compatible:
         settings |= _toggle_reasoning(reference, request.is_thinking)
@@ -159,7 +159,7 @@ def _toggle_reasoning(reference: ModelReference, is_thinking: bool) -> dict[str,
 def convert_response(
     response: "ModelResponse", request: Request, provider: str, cutoff: Finish | None = None
 ) -> Completion:
-    """Return a response of pydantic-ai as a completion.
+    """Convert a pydantic-ai response to a completion.
 
     Args:
         response: the response, complete or not.
@@ -170,7 +170,7 @@ def convert_response(
     from pydantic_ai.messages import TextPart, ThinkingPart, ToolCallPart  # noqa: PLC0415
 
     text = "".join(part.content for part in response.parts if isinstance(part, TextPart))
-    # The answer is what the tool is called with, as the model wrote it; it may write text before.
+    # The answer is the raw arguments of the tool call; the model may also write text before the call.
     text = next((str(part.args or "") for part in response.parts if isinstance(part, ToolCallPart)), text)
     thinking = "".join(part.content for part in response.parts if isinstance(part, ThinkingPart))
     finish = Finish.LENGTH if response.finish_reason == "length" else Finish.STOP
@@ -181,7 +181,7 @@ def convert_response(
     if cutoff is not None and provider != "google":
         # Only Gemini reports output tokens during a stream; Anthropic's count at the start is a placeholder.
         counted = replace(counted, output_tokens=0)
-    # OpenAI's chat completions have token probabilities beside the text; its responses, as in batch jobs, in it.
+    # OpenAI's Chat Completions API returns logprobs beside the text; its Responses API (batch jobs) in the text part.
     details = [response.provider_details, *(p.provider_details for p in response.parts if isinstance(p, TextPart))]
     tokens = next((read for one in details if (read := _read_tokens(one or {}))), ())
     if not counted.output_tokens:
@@ -192,7 +192,7 @@ def convert_response(
 
 
 def hide_secrets(completion: Completion, hide: Callable[[str], str]) -> Completion:
-    """Return a completion without keys that the server echoed; if it did, without token probabilities, too."""
+    """Return a completion with echoed API keys removed; if there were any, token probabilities are dropped, too."""
     text, thinking = hide(completion.text), hide(completion.thinking)
     spelled = "".join(piece for piece, _ in completion.tokens)
     if (text, thinking, hide(spelled)) == (completion.text, completion.thinking, spelled):
@@ -217,7 +217,7 @@ def _read_tokens(details: Mapping[str, Any]) -> tuple[tuple[str, float], ...]:
 
 
 def _piece(token: Mapping[str, Any], decode: Callable[[bytes], str]) -> str:
-    """Return the text that a token adds. Its bytes are exact even if it ends inside a character; its name is not."""
+    """Return the text that a token adds, from its bytes: its name is wrong if the token ends inside a character."""
     raw = token.get("bytes")
     return str(token["token"]) if raw is None else decode(bytes(raw))
 

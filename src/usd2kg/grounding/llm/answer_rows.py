@@ -20,7 +20,7 @@ class AnswerRow(NamedTuple):
 
 
 def read_answer_rows(text: str, numbers: Sequence[str]) -> dict[str, AnswerRow]:
-    """Return number → row for the objects that the text has a row for.
+    """Return number → row for the objects that have a row in the text.
 
     The rows are the members of a JSON object, which may be fenced, surrounded by prose, or truncated after complete
     rows. If there are several JSON objects, the last one with the most rows counts. If a single number is requested,

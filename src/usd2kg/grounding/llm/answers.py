@@ -23,10 +23,10 @@ _REFUSALS = frozenset({"none", "null", "unknown", "n/a"})
 
 
 class Defect(StrEnum):
-    """Why an answer names no class, as the study distinguishes it."""
+    """Kind of an answer without a class, as distinguished in the study."""
 
     HALLUCINATED = "hallucinated class"
-    """It names a class that was not offered."""
+    """The answer names a class that was not offered."""
     DEGENERATE = "degenerate output"
     """The completion is empty, repeats itself or was truncated before it named a class."""
 
@@ -42,7 +42,7 @@ class ParsedAnswer:
     reasoning: str = ""
     """Text that the model wrote before the class; empty if none."""
     problem: str = ""
-    """What is wrong, in one sentence with quotes from the completion; empty if nothing is."""
+    """The problem in one sentence with quotes from the completion; empty if there is none."""
     defect: Defect | None = None
     """None for an answer with a class, and for other problems, such as a refusal."""
     logprob: float | None = None
@@ -101,7 +101,7 @@ class _Resolution(NamedTuple):
 
 
 def _resolve(name: str, batch: Batch, tbox: TBox) -> _Resolution:
-    """Return the offered class called `name`, else the reason why there is none."""
+    """Return the offered class called `name`, or the reason why there is none."""
     if name in batch.classes:
         return _Resolution(batch.classes[name])
     for is_exact in (True, False):

@@ -61,7 +61,7 @@ _creating = Lock()
 
 
 def default_cache_path() -> Path:
-    """Return the default path of the cache: `$USD2KG_CACHE`, else a file in the `cache_folder`.
+    """Return the default path of the cache: `$USD2KG_CACHE`, otherwise a file in the `cache_folder`.
 
     Raises:
         GroundingError: the home folder cannot be determined.
@@ -110,7 +110,7 @@ class CompletionCache:
             raise GroundingError(f"{self.path}: completion {key} is damaged ({error}); {_remedy()}") from error
 
     def put(self, model: str, request: Request, completion: Completion, *, replace: bool = False) -> None:
-        """Store a completion, degenerate and truncated ones included: they were paid for.
+        """Store a completion, even if it is degenerate or truncated: it was paid for.
 
         An existing completion is kept unless `replace`. Text is preserved, except that two halves of a surrogate pair
         become the character they encode.
@@ -126,7 +126,7 @@ class CompletionCache:
 
         Args:
             path: the recording.
-            keys: the completions to write, as far as they are in the cache; None for all.
+            keys: keys of the completions to write, ignoring keys that are not in the cache; None for all.
 
         Raises:
             OutputError: the file cannot be written.
@@ -201,7 +201,7 @@ class CompletionCache:
     def _upgrade(self) -> None:
         self._connection.create_function("upgraded", 1, _upgrade_text, deterministic=True)
         with self.transaction():
-            # Another process may have upgraded the file meanwhile; the function leaves upgraded completions unchanged.
+            # Another process may have upgraded the file in the meantime; upgraded completions stay unchanged.
             self._connection.execute("UPDATE completions SET completion = upgraded(completion)")
             self._connection.execute(f"PRAGMA user_version = {_FILE_VERSION}")
 
@@ -232,7 +232,7 @@ class CompletionCache:
                 yield self._connection
                 self._connection.execute("COMMIT")
             finally:
-                # Still open only after an error.
+                # A transaction is still open only after an error.
                 if self._connection.in_transaction:
                     self._connection.execute("ROLLBACK")
 
@@ -248,7 +248,7 @@ class CompletionCache:
                 " its permissions and the free space, or set USD2KG_CACHE to another file"
             ) from error
         except sqlite3.DatabaseError as error:
-            raise GroundingError(f"{self.path}: is damaged or no cache ({error}); {_remedy()}") from error
+            raise GroundingError(f"{self.path}: is damaged or is not a cache ({error}); {_remedy()}") from error
 
 
 def _create_file(path: Path) -> None:

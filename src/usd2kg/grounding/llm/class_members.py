@@ -9,7 +9,7 @@ from typing import Any, NamedTuple
 from usd2kg.errors import GroundingError
 from usd2kg.grounding.lexical.alignment.member_rows import ClassMembers
 from usd2kg.grounding.llm.answer_rows import read_answer_rows
-from usd2kg.grounding.llm.batch_jobs.desk import DeferredError
+from usd2kg.grounding.llm.batch_jobs.queue import DeferredError
 from usd2kg.grounding.llm.class_lists import list_classes, name_classes
 from usd2kg.grounding.llm.completion import Request
 from usd2kg.grounding.llm.metered_client import MeteredClient
@@ -28,7 +28,7 @@ class MemberQuestion:
 
     request: Request
     classes: tuple[ClassIRI, ...]
-    """The classes that it asks about; the first is class "1" in the prompt."""
+    """The classes to ask about; the first is class "1" in the prompt."""
 
 
 class _Answer(NamedTuple):
@@ -73,7 +73,7 @@ def ask_members(
         client: the client of the model, with its cache and budget.
         questions: the prompts.
         workers: prompts in flight at the same time.
-        progress: called with the number of prompts that are done and the total.
+        progress: called with the number of completed prompts and the total.
     """
     start = time.monotonic()
     client.report.prompts += len(questions)
@@ -98,7 +98,7 @@ def ask_members(
 
 
 def _ask(client: MeteredClient, question: MemberQuestion) -> _Answer | None:
-    """Return the answer to a question; None if it waits for a batch job."""
+    """Return the answer to a question; None if the prompt is deferred to a batch job."""
     try:
         text = client.complete(question.request).text
     except DeferredError:

@@ -1,8 +1,8 @@
-"""Texts of a scene that may command the model instead of describing an object.
+"""Detection of prompt injection: texts of a scene that may command the model instead of describing an object.
 
-No rule recognises all of them. So quotation, numbers and the schema bind every text: none can leave its row or
-introduce a class. The rules here also keep a suspicious text out of the rows and prompts of other objects, so that a
-model that obeys it answers only for its own object wrongly.
+No rule recognises every injection, so quotation, row numbers and the answer schema constrain all texts: none can leave
+its row or introduce a class. The rules here also keep a suspicious text out of the rows and prompts of other objects,
+so that a model that obeys it misclassifies only the object that carries the text.
 """
 
 import unicodedata

@@ -14,11 +14,11 @@ class Finish(StrEnum):
     """Why a completion ended."""
 
     STOP = "stop"
-    """The model ended it."""
+    """The model ended the completion."""
     LENGTH = "length"
-    """It reached the limit of output tokens."""
+    """The completion reached the limit of output tokens."""
     DEGENERATE = "degenerate"
-    """It was cut off because it repeated itself."""
+    """The client cut off the completion because it repeated itself."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -37,7 +37,7 @@ class Request:
     is_thinking: bool = False
     """Whether a reasoning model reasons before it answers."""
     sample: int = 0
-    """Number of the sample, if a prompt is completed several times."""
+    """Sample number, if a prompt is completed several times."""
     images: tuple[bytes, ...] = ()
     """PNG files shown after the text."""
 
@@ -51,7 +51,7 @@ class Usage:
     """Input tokens that the server read from its cache."""
     output_tokens: int = 0
     estimated_tokens: int = 0
-    """Input and output tokens that the server did not report and that are estimated."""
+    """The part of the input and output tokens that is estimated because the server did not report it."""
     written_tokens: int = 0
     """Input tokens that the server wrote to its cache; Anthropic charges more for them."""
 

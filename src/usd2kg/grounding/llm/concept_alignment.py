@@ -1,4 +1,4 @@
-"""rows_of_answers: what a model answered about concepts, as rows of an alignment that settle later objects."""
+"""rows_of_answers: a model's answers about concepts as rows of an alignment, which later runs reuse."""
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
@@ -23,11 +23,12 @@ class ConceptAnswer:
 
 
 def rows_of_answers(answers: Sequence[ConceptAnswer], tool: str, taxonomy: Taxonomy) -> tuple[list[AlignmentRow], int]:
-    """Return the rows, and the number of concepts and terms that have none since their answers differ.
+    """Return the rows, and the number of concepts and terms omitted because their answers conflict.
 
-    An answer about a concept is a row of the concept, and of each noun for it that the names have. An answer about
-    words without a concept is a row of these words. Answers about the same concept differ if the lexical grounder put
-    its objects into different classes, for example by their places; then none of them is true of later objects.
+    An answer about a concept gives a row for the concept and a row for each noun in the names that denotes it. An
+    answer about words without a concept gives a row for these words. Answers about the same concept conflict if the
+    lexical grounder put its objects into different classes, for example by their places; then none of them generalizes
+    to later objects.
 
     Args:
         answers: the answers.

@@ -1,8 +1,8 @@
 """group_by_concept: objects → distinct readings of their names → distinct concepts, each with the lexical candidates.
 
-Objects of a group get the same answer, so a group must not contain an object that another could mislead:
+Objects of a group get the same answer, so a group must not mix objects whose answers could differ:
 
-- A masked view is a group by itself, since the regime hides what it has in common with others.
+- A masked view is a group by itself, since the naming regime hides what distinguishes it.
 - An object whose texts may command the model shares an answer only with objects of the same texts.
 - Objects with the same concept that the lexical grounder puts into different classes are in different groups.
 """
@@ -26,7 +26,7 @@ __all__ = ["ConceptGroup", "group_by_concept", "reading_of"]
 
 @dataclass(frozen=True, slots=True)
 class ConceptGroup:
-    """Objects that one question is about."""
+    """Objects that share one question."""
 
     members: tuple[int, ...]
     """Their indices in the views."""
@@ -39,11 +39,11 @@ class ConceptGroup:
     readings: tuple[str, ...] = ()
     """The distinct content words of their names; empty for names without words."""
     is_reusable: bool = True
-    """Whether an answer is true of other objects: none is masked, and no text may command the model."""
+    """Whether the answer can be reused for other objects: no member is masked and no text may command the model."""
 
 
 def reading_of(name: str) -> str:
-    """Return the content words of a name, which copies of an object share; the name itself if it has none.
+    """Return the content words of a name, which are the same for copies of an object; without any, the name itself.
 
     >>> reading_of("SM_KitchenWorktop_01")
     'kitchen worktop'
@@ -56,8 +56,8 @@ def reading_of(name: str) -> str:
 def group_by_concept(views: Sequence[ObjectView], tbox: TBox, *, has_more_evidence: bool = False) -> list[ConceptGroup]:
     """Return the groups of objects that share a concept, in the order of their first members.
 
-    Objects whose words name no concept share an answer if they have the same words, and those without words if they
-    differ only in a number and in position.
+    Objects whose words name no concept are grouped by their words. Objects without words are grouped if they differ
+    only in a number and in position.
 
     Args:
         views: the objects.

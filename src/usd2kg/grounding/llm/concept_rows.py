@@ -38,7 +38,7 @@ def describe_group(
 
 
 def _evidence(group: ConceptGroup, members: Sequence[ObjectView], options: PromptOptions) -> Iterator[tuple[str, str]]:
-    """Yield (key, value) of what is known of the objects; unknown values are empty."""
+    """Yield (key, value) of the known properties of the objects; unknown values are empty."""
     first = members[0]
     yield "names", _list_frequent((reading_of(view.name) for view in members), CONCEPTS.max_readings)
     if group.concept is not None:
@@ -72,7 +72,7 @@ def _evidence(group: ConceptGroup, members: Sequence[ObjectView], options: Promp
 
 
 def _list_frequent(texts: Iterable[str], limit: int) -> str:
-    """Return the most frequent texts with their counts, then the number of further ones."""
+    """Return the most frequent texts with their counts, then the number of omitted texts."""
     counts = Counter(texts).most_common()
     rows = [f"{quote(text)} ({count} times)" if count > 1 else quote(text) for text, count in counts[:limit]]
     return ", ".join(rows) + (f" and {len(counts) - limit} more" if len(counts) > limit else "")

@@ -1,4 +1,4 @@
-"""find_endpoint: the URL of services that have one per customer or region: Azure OpenAI and Amazon Bedrock."""
+"""find_endpoint: the URL of a service with one endpoint per customer or region: Azure OpenAI or Amazon Bedrock."""
 
 import re
 from collections.abc import Callable, Mapping
@@ -17,7 +17,7 @@ _REGION = re.compile(r"[a-z0-9]+(-[a-z0-9]+)+")
 
 
 def find_url_problem(url: str) -> str | None:
-    """Return what is wrong with the base URL of a server; None if nothing is. The URL may contain a password."""
+    """Return the problem with the base URL of a server, or None. The message omits the URL: it may hold a password."""
     try:
         parts = urlsplit(url)
         is_valid = parts.scheme in ("http", "https") and bool(parts.hostname) and parts.port != 0

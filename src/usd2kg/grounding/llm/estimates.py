@@ -18,9 +18,9 @@ _PNG_SIGNATURE = b"\x89PNG\r\n\x1a\n"
 def estimate_usage(request: Request) -> Usage:
     """Return an estimate of the tokens of a prompt and its answer.
 
-    The answer is assumed to have one row per object, with a class name of mean length and, if the prompt asks for it,
-    a reasoning of fixed length, or as many nouns as the prompt asks for. Thinking, repairs and the server's cache are
-    not included.
+    The answer is assumed to have one row per object with a class name of mean length and, if the prompt asks for them,
+    a reasoning of fixed length or the requested number of nouns. Thinking, repairs and the server's cache are not
+    included.
     """
     rows = {number: row["properties"] for number, row in request.schema["properties"].items()}
     answer = {
@@ -35,7 +35,7 @@ def estimate_usage(request: Request) -> Usage:
 
 
 def _typical_name(form: Mapping[str, Any]) -> str:
-    """Return a text as long as the mean of the names that are allowed."""
+    """Return a text of the mean length of the allowed names."""
     return "x" * round(Fraction(sum(map(len, form["enum"])), max(1, len(form["enum"]))))
 
 

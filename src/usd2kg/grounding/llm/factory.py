@@ -8,8 +8,8 @@ from decimal import Decimal
 from pathlib import Path
 
 from usd2kg.errors import GroundingError
-from usd2kg.grounding.llm.batch_jobs.desk import BatchDesk, Reporting
 from usd2kg.grounding.llm.batch_jobs.journal import JobJournal
+from usd2kg.grounding.llm.batch_jobs.queue import BatchQueue, Reporting
 from usd2kg.grounding.llm.cache import CompletionCache, default_cache_path
 from usd2kg.grounding.llm.clients import HttpClient, make_client
 from usd2kg.grounding.llm.completion import Client, Completion, Request
@@ -78,7 +78,7 @@ class LLMSettings:
     is_replayed: bool = False
     """Use only cached completions."""
     is_batched: bool = False
-    """Submit prompts that are not cached as batch jobs, at the price of these, and wait for the answers."""
+    """Submit uncached prompts as batch jobs, at batch prices, and wait for the answers."""
 
 
 @contextmanager
@@ -211,7 +211,9 @@ def _open_metered_client(
         return MeteredClient(_OfflineClient(settings.model), tariff=tariff, budget=budget)
     cache = stack.enter_context(CompletionCache(settings.completions or default_cache_path()))
     client, traffic = _open_client(settings, stack)
-    desk = _open_desk(settings, client, cache, reporting) if settings.is_batched and not settings.is_replayed else None
+    queue = (
+        _open_queue(settings, client, cache, reporting) if settings.is_batched and not settings.is_replayed else None
+    )
     return MeteredClient(
         client,
         cache=cache,
@@ -220,7 +222,7 @@ def _open_metered_client(
         spending=spending,
         tariff=tariff,
         traffic=traffic,
-        desk=desk,
+        queue=queue,
     )
 
 
@@ -231,10 +233,12 @@ def _find_tariff(settings: LLMSettings) -> Tariff | None:
     return discount_batch(stated) if settings.is_batched else stated
 
 
-def _open_desk(settings: LLMSettings, client: Client, cache: CompletionCache, reporting: Reporting | None) -> BatchDesk:
+def _open_queue(
+    settings: LLMSettings, client: Client, cache: CompletionCache, reporting: Reporting | None
+) -> BatchQueue:
     if not isinstance(client, HttpClient):
-        raise GroundingError(f"model '{settings.model}': runs in this process, without batch jobs; leave out --batch")
-    return BatchDesk(settings.model, JobJournal(cache), client.open_batch_service(), reporting or Reporting())
+        raise GroundingError(f"model '{settings.model}': runs locally and has no batch jobs; leave out --batch")
+    return BatchQueue(settings.model, JobJournal(cache), client.open_batch_service(), reporting or Reporting())
 
 
 def _open_client(settings: LLMSettings, stack: ExitStack) -> tuple[Client, Traffic]:

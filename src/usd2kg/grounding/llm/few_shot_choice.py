@@ -1,4 +1,4 @@
-"""Few-shot examples for prompts, from the decisions of a person."""
+"""Few-shot examples for prompts, chosen from a person's review decisions."""
 
 from collections import Counter
 from collections.abc import Mapping

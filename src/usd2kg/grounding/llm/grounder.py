@@ -13,7 +13,7 @@ from usd2kg.grounding.context.views import ObjectView
 from usd2kg.grounding.lexical.alignment.alignment_rows import format_rows
 from usd2kg.grounding.lexical.concepts.taxonomy import load_taxonomy
 from usd2kg.grounding.llm.answers import Defect, ParsedAnswer, parse_answers, repair_request
-from usd2kg.grounding.llm.batch_jobs.desk import DeferredError
+from usd2kg.grounding.llm.batch_jobs.queue import DeferredError
 from usd2kg.grounding.llm.class_lists import name_classes
 from usd2kg.grounding.llm.completion import Completion, Finish
 from usd2kg.grounding.llm.concept_alignment import ConceptAnswer, rows_of_answers
@@ -35,7 +35,7 @@ __all__ = ["LLMGrounder"]
 _INTERRUPTED = ParsedAnswer(
     None, Status.FAILED, "", "not asked: the run was interrupted; run the same command to resume"
 )
-_DEFERRED = ParsedAnswer(None, Status.FAILED, "", "not asked: waits for a batch job")
+_DEFERRED = ParsedAnswer(None, Status.FAILED, "", "not asked: deferred to a batch job")
 
 
 class _Plan(NamedTuple):
@@ -51,7 +51,7 @@ class _Plan(NamedTuple):
 
 @dataclass(slots=True)
 class _Sample:
-    """The answers of one sample of a prompt, and what they count in the report."""
+    """The answers of one sample of a prompt, with their counts for the report."""
 
     answers: list[ParsedAnswer]
     repairs: int = 0
@@ -110,7 +110,7 @@ class LLMGrounder:
         self.tariff = client.tariff
         self._scaling = scaling
         self.concept_answers: list[ConceptAnswer] = []
-        """What the model answered about groups of objects that share a concept; empty for other strategies."""
+        """The model's answers about groups of objects that share a concept; empty for other strategies."""
         self.is_calibrated = scaling is not None
 
     @property
@@ -123,19 +123,19 @@ class LLMGrounder:
         return self._client.report
 
     def restart_report(self) -> None:
-        """Count anew; grounders with the same client share its report."""
+        """Reset the counts; grounders with the same client share its report."""
         self._client.restart_report()
 
     def planning(self) -> AbstractContextManager[None]:
-        """Return a context in which `ground_views` only defers the prompts that it lacks for batch jobs."""
+        """Return a context in which `ground_views` defers uncached prompts to batch jobs."""
         return self._client.planning()
 
     def submit_deferred(self) -> bool:
-        """Submit the prompts that were deferred as batch jobs; return whether there are any."""
+        """Submit the deferred prompts as batch jobs; return whether there are any."""
         return self._client.submit_deferred()
 
     def collect_deferred(self) -> None:
-        """Wait for these jobs."""
+        """Wait for the submitted batch jobs."""
         self._client.collect_deferred()
 
     @property
@@ -158,9 +158,9 @@ class LLMGrounder:
         }
 
     def format_alignment(self, tbox: TBox) -> tuple[str, int, int]:
-        """Return the answers about concepts as an alignment file, its number of rows, and of those left out.
+        """Return the answers about concepts as an alignment file, with the numbers of rows and of omitted subjects.
 
-        The rows change the alignment that is built; `rows_of_answers` says which answers have none.
+        The rows change the alignment that is built; see `rows_of_answers` for the omitted subjects.
         """
         rows, left_out = rows_of_answers(self.concept_answers, self._client.model, load_taxonomy())
         return format_rows(rows, tbox), len(rows), left_out
@@ -222,7 +222,7 @@ class LLMGrounder:
         return [predictions[index] for index in range(len(views))]
 
     def _run_in_rounds(self, batches: list[Batch], tbox: TBox) -> Iterator[tuple[Batch, list[ScoredAnswer]]]:
-        """Yield the batches with their answers; after each round, batch jobs complete the prompts that were deferred.
+        """Yield the batches with their answers; after each round, batch jobs complete the deferred prompts.
 
         Repair prompts, which depend on answers, are deferred to a second round.
         """
@@ -241,7 +241,7 @@ class LLMGrounder:
                 return
 
     def _fetch_deferred(self) -> bool:
-        """Have batch jobs complete the deferred prompts; return whether the user has let them."""
+        """Complete the deferred prompts by batch jobs; return False if the user interrupts the wait."""
         if self.report.is_interrupted:
             return False
         try:
@@ -300,7 +300,7 @@ class LLMGrounder:
         """Return the answers of a sample.
 
         Raises:
-            DeferredError: it waits for the next batch job.
+            DeferredError: the prompt is deferred to the next batch job.
         """
         batch = replace(batch, request=replace(batch.request, sample=number))
         try:
@@ -316,7 +316,7 @@ class LLMGrounder:
         return sample
 
     def _repair(self, sample: _Sample, batch: Batch, completion: Completion, tbox: TBox) -> None:
-        """Replace the unreadable answers by those to a repair prompt."""
+        """Replace unreadable answers with the answers to a repair prompt."""
         try:
             second = self._client.complete(repair_request(batch, completion.text, sample.answers))
         except DeferredError:

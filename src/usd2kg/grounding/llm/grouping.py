@@ -19,7 +19,7 @@ def make_shortlists(views: Sequence[ObjectView], tbox: TBox, size: int) -> list[
 
 
 def group_similar_views(views: Sequence[ObjectView], options: PromptOptions) -> list[list[int]]:
-    """Return the indices of views in groups that share one answer: they differ only in a number and in position.
+    """Return groups of view indices; the views of a group share one answer and differ only in number and position.
 
     For strategy A the name alone counts; for B and C also the names of the parents, the size to the centimetre, the
     mass and the asset. A masked view is a group by itself, since masking can make different objects look alike. An
@@ -35,7 +35,7 @@ def group_similar_views(views: Sequence[ObjectView], options: PromptOptions) -> 
 
 
 def signature_of(view: ObjectView, strategy: Strategy) -> object:
-    """Return what objects that share an answer have in common, as a hashable value."""
+    """Return a hashable key that is equal for objects that share an answer."""
     name = _without_number(view.name)
     if strategy is Strategy.NAME_ONLY:
         return name

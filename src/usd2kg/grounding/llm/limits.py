@@ -13,14 +13,14 @@ class OperationalLimits:
     """Duration of one request, from connecting to the last byte of its stream."""
     connect_timeout_s: float = 10.0
     max_retries: int = 4
-    """Attempts after the first, for failures that may pass."""
+    """Retries after a transient failure."""
     first_backoff_s: float = 1.0
     """Upper bound of the first wait; it doubles with each retry."""
     max_backoff_s: float = 60.0
     max_retry_after_s: float = 120.0
     """A server that asks for a longer wait has exhausted a quota; the request fails at once."""
     max_consecutive_failures: int = 3
-    """Failed prompts in a row after which the model is not asked again."""
+    """Consecutive failed prompts after which no further prompt is sent."""
     max_output_tokens: int = 4096
     max_characters_per_token: int = 32
     """A stream with more characters per allowed token is cut off: the server ignores its token limit."""
@@ -45,13 +45,13 @@ class OperationalLimits:
     cache_poll_s: float = 0.01
     """Interval between attempts to switch a new cache to WAL mode."""
     first_poll_s: float = 10.0
-    """Seconds until a batch job is asked for the first time; each wait is `poll_growth` times as long as the last."""
+    """Seconds until the first poll of a batch job; each interval is `poll_growth` times the previous one."""
     poll_growth: float = 1.5
     max_poll_s: float = 120.0
     max_failed_polls: int = 10
-    """Failures in a row, retries not counted, after which a batch job is left for a later run."""
+    """Consecutive failed polls, not counting retries, after which a batch job is left to a later run."""
     job_settle_s: float = 60.0
-    """Age at which a batch job that has arrived is in the list of the service."""
+    """Age at which the service's job list is certain to include a received batch job."""
     clock_skew_s: float = 600.0
     """Largest difference between the clock of the service and that of this machine."""
     submission_lock_s: float = 600.0

@@ -9,7 +9,7 @@ from threading import Lock
 
 from usd2kg.errors import GroundingError
 from usd2kg.grounding.llm.answers import Defect
-from usd2kg.grounding.llm.batch_jobs.desk import BatchDesk
+from usd2kg.grounding.llm.batch_jobs.queue import BatchQueue
 from usd2kg.grounding.llm.cache import CompletionCache
 from usd2kg.grounding.llm.completion import Client, Completion, Request, Usage
 from usd2kg.grounding.llm.estimates import estimate_usage
@@ -38,7 +38,7 @@ class RunReport:
     failed: int = 0
     """Prompts without a completion."""
     first_failure: str = ""
-    """Why the model failed on the first of them; empty if it failed on none of those that it was asked."""
+    """Reason for the first failure among prompts that were sent; empty if there was none."""
     usage: Usage = field(default_factory=Usage)
     """Tokens of the completions received from the model."""
     price: Decimal | None = None
@@ -115,7 +115,7 @@ class MeteredClient:
         spending: Spending | None = None,
         tariff: Tariff | None = None,
         traffic: Traffic | None = None,
-        desk: BatchDesk | None = None,
+        queue: BatchQueue | None = None,
     ) -> None:
         """Create a metered client.
 
@@ -124,10 +124,10 @@ class MeteredClient:
             cache: the cache of completions; None for none.
             is_refreshed: ignore cached completions and replace them.
             budget: None for no limits.
-            spending: what other clients with the same budget have spent, and add to; None for a budget of its own.
-            tariff: the price of tokens, in batch jobs if there is a desk; None if unknown.
+            spending: the spending of all clients that share the budget; None if this client has its own budget.
+            tariff: the price of tokens, at batch rates if there is a queue; None if unknown.
             traffic: the counter of `client`.
-            desk: submits prompts that are not cached as batch jobs; None to send each by `client`.
+            queue: submits uncached prompts as batch jobs; None to send each of them with `client`.
 
         Raises:
             GroundingError: the budget is in dollars, but there is no tariff.
@@ -135,23 +135,23 @@ class MeteredClient:
         self._budget = budget or Budget()
         if self._budget.dollars is not None and tariff is None:
             raise GroundingError(
-                f"model '{client.model}': its price is not known; expected one for --budget, "
-                "state it with --price INPUT/OUTPUT in dollars per million tokens"
+                f"model '{client.model}': has no list price, which --budget requires; "
+                "give one with --price INPUT/OUTPUT in dollars per million tokens"
             )
         self._client, self._cache, self._is_refreshed = client, cache, is_refreshed
         self._spending = spending or Spending()
         self._traffic = traffic or Traffic()
-        self._desk = desk
+        self._queue = queue
         self._reserved = 0, Decimal(0)
-        """Estimated tokens and dollars of the prompts in jobs that are awaited."""
+        """Estimated tokens and dollars of the prompts in pending jobs."""
         self._refused: dict[str, str] = {}
-        """Key of a prompt that the budget forbids → why."""
+        """Cache key of a prompt beyond the budget → reason."""
         self._fetched: set[str] = set()
-        """Keys of completions from batch jobs of this run, which are new though they are in the cache."""
+        """Keys of completions from batch jobs of this run, reported as new although they are in the cache."""
         self._reported: set[str] = set()
-        """Of these, the ones that are in the report."""
+        """The subset of `_fetched` that the report already includes."""
         self.is_planning = False
-        """Whether prompts are only collected for a batch job, see `planning`."""
+        """Whether prompts are only collected for a batch job; see `planning`."""
         self.model = client.model
         self.tariff = tariff
         self._consecutive_failures = 0
@@ -164,7 +164,7 @@ class MeteredClient:
         return RunReport(price=nothing, cached_price=nothing, traffic=self._traffic)
 
     def restart_report(self) -> None:
-        """Replace the report by an empty one, except for the HTTP traffic; the budget counts on."""
+        """Reset the report except for the HTTP traffic; the spending towards the budget is kept."""
         with self.lock:
             self.report = self._empty_report()
             self._fetched -= self._reported
@@ -172,7 +172,7 @@ class MeteredClient:
 
     @contextmanager
     def planning(self) -> Iterator[None]:
-        """Have runs in this context only defer the prompts that they lack; what they report is forgotten."""
+        """Defer uncached prompts instead of sending them, and discard the report of runs in this context."""
         before, self.report, self.is_planning = self.report, self._empty_report(), True
         try:
             yield
@@ -180,23 +180,23 @@ class MeteredClient:
             self.report, self.is_planning = before, False
 
     def submit_deferred(self) -> bool:
-        """Submit the prompts that `complete` has deferred as batch jobs, within the budget.
-
-        Return whether there were any.
+        """Submit the prompts deferred by `complete` as batch jobs, within the budget; return whether there are any.
 
         Raises:
-            GroundingError: see `BatchDesk.submit`.
+            GroundingError: see `BatchQueue.submit`.
         """
-        return self._desk is not None and self._desk.submit(self._refuse_beyond_budget)
+        return self._queue is not None and self._queue.submit(self._refuse_beyond_budget)
 
     def collect_deferred(self) -> None:
-        """Wait for these jobs, and count their tokens towards the budget. `complete` then returns their completions.
+        """Wait for the submitted jobs and count their tokens towards the budget.
+
+        Afterwards, `complete` returns their completions.
 
         Raises:
-            KeyboardInterrupt: the user ends the wait.
+            KeyboardInterrupt: the user stops waiting.
         """
-        assert self._desk is not None
-        for key, completion in self._desk.collect().items():
+        assert self._queue is not None
+        for key, completion in self._queue.collect().items():
             self._fetched.add(key)
             usage = completion.usage
             self._spending.add(usage.input_tokens + usage.output_tokens, self._price(usage))
@@ -208,7 +208,7 @@ class MeteredClient:
 
         Raises:
             GroundingError: the request failed, the budget is spent, or too many prompts in a row have failed;
-                `DeferredError` if it waits for the next batch job.
+                `DeferredError` if the prompt is deferred to the next batch job.
         """
         cached = None
         if self._cache is not None and not self._is_refreshed:
@@ -216,10 +216,10 @@ class MeteredClient:
         if cached is not None:
             self._count_cached(request, cached)
             return cached
-        if self._desk is not None:
+        if self._queue is not None:
             if (problem := self._refused.get(request_key(self.model, request))) is not None:
                 raise NotAskedError(problem)
-            self._desk.defer(request)
+            self._queue.defer(request)
         self._check_budget()
         try:
             completion = self._client.complete(request)
@@ -241,7 +241,7 @@ class MeteredClient:
             if is_new:
                 self._reported.add(key)
         if is_new:
-            # A run asks again for what it has when it goes on after a job.
+            # After a batch job, the run requests every prompt again: count each new completion once.
             if not is_counted:
                 self._report_new(key, completion.usage)
             return
@@ -271,7 +271,7 @@ class MeteredClient:
         return Decimal(0) if self.tariff is None else self.tariff(usage)
 
     def _refuse_beyond_budget(self, running: Mapping[str, Request], new: Mapping[str, Request]) -> set[str]:
-        """Reserve the estimated price of prompts in batch jobs, and return the keys of those that are not submitted."""
+        """Reserve the estimated price of prompts in batch jobs; return the keys of new prompts beyond it."""
         for key, request in (*running.items(), *new.items()):
             usage = estimate_usage(request)
             tokens, dollars = usage.input_tokens + usage.output_tokens, self._price(usage)
@@ -284,7 +284,7 @@ class MeteredClient:
         return self._refused.keys() & new.keys()
 
     def _exceeds_budget(self, tokens: int, dollars: Decimal) -> str | None:
-        """Return why a prompt with this estimate is not submitted; None if the budget allows it."""
+        """Return why a prompt with this estimate exceeds the budget; None if it does not."""
         used = self._spending.tokens + self._spending.reserved_tokens + tokens
         spent = self._spending.dollars + self._spending.reserved_dollars + dollars
         if self._budget.tokens is not None and used > self._budget.tokens:
@@ -305,4 +305,4 @@ class MeteredClient:
                 f"not asked: {format_price(spent)} are spent of a budget of {format_price(dollars)}; raise --budget"
             )
         if failures >= LIMITS.max_consecutive_failures:
-            raise NotAskedError(f"not asked: {failures} prompts in a row failed; see the first of them")
+            raise NotAskedError(f"not asked: {failures} consecutive prompts failed; see the first failure")

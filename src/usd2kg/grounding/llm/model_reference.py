@@ -42,7 +42,7 @@ PROVIDER_URLS = {
     "anthropic": "https://api.anthropic.com",
     "openai": "https://api.openai.com/v1",
 }
-"""Provider → base URL of its own service, which is the same for all customers."""
+"""Provider → base URL of its own service."""
 _EXPECTED = (
     "expected google:NAME, anthropic:NAME or openai:NAME, optionally followed by @http://HOST:PORT/v1, "
     "azure:DEPLOYMENT or bedrock:MODEL"
@@ -75,7 +75,7 @@ class ModelReference:
 
     @property
     def is_openai_compatible(self) -> bool:
-        """Whether the server implements OpenAI's API but is not OpenAI's own."""
+        """Whether the server implements OpenAI's API but is not run by OpenAI."""
         return self.provider == "openai" and self.has_custom_url
 
 

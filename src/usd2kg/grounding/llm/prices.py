@@ -27,8 +27,8 @@ _SMALLEST_SHOWN = Decimal("0.0001")
 def find_tariff(model: str, *, is_batched: bool = False) -> Tariff | None:
     """Return the list price of a model; None if it is not listed, as for local servers and weights.
 
-    If the model string has a URL, the provider is found by it: OpenRouter, for example, has its own prices. An Azure
-    deployment has a price only if it is called like its model.
+    If the model string has a URL, the provider is identified by it: OpenRouter, for example, has its own prices. An
+    Azure deployment has a price only if it is named after its model.
 
     Args:
         model: the model string.
@@ -71,7 +71,7 @@ def _list_price(reference: ModelReference, is_batched: bool) -> Tariff:
 
 
 def discount_batch(tariff: Tariff) -> Tariff:
-    """Return the tariff of batch jobs by the published rule of OpenAI, Anthropic and Gemini: a share of all prices."""
+    """Return the batch tariff: the fixed share of all prices that OpenAI, Anthropic and Gemini publish."""
     return lambda usage: tariff(usage) * BATCH.price_share
 
 

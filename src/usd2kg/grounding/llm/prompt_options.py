@@ -24,7 +24,7 @@ class Strategy(StrEnum):
     BY_NAME = "auto"
     """A for objects with an informative name; otherwise C, or B for a reasoning model.
 
-    In the study, context helped only with uninformative names, and written reasoning only models that do not reason.
+    In the study, context helped only with uninformative names, and written reasoning helped only non-reasoning models.
     """
 
     def for_name(self, name: str, *, is_thinking: bool) -> "Strategy":

@@ -83,7 +83,7 @@ def build_requests(
 
 
 def _split(members: Sequence[int], views: Sequence[ObjectView], options: PromptOptions) -> Iterator[tuple[int, ...]]:
-    """Yield the objects of each prompt; one whose texts may command the model has a prompt of its own."""
+    """Yield the objects of each prompt; an object whose texts may command the model gets its own prompt."""
     is_alone = {i for i in members if commanding_texts(views[i], has_more_evidence=options.has_more_evidence)}
     together = [index for index in members if index not in is_alone]
     for start in range(0, len(together), options.objects_per_prompt):

@@ -33,7 +33,7 @@ class Failure:
     is_transient: bool = False
     """Whether the same request may succeed later."""
     retry_after_s: float | None = None
-    """Seconds to wait before the next request, as the server asks; None if it does not."""
+    """Seconds to wait before the next request, as requested by the server; None if it did not."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -119,8 +119,8 @@ def advise(failure: Failure, key_variables: str) -> str:
         case None | 408 | 409 | 429:
             return "expected a server that is up and within its limits, check it or try again later"
         case status if status >= 500:
-            return "expected a server that works, try again later"
-    return "expected a request that the server takes, check the model's limits and the options"
+            return "the server failed, try again later"
+    return "the server rejected the request, check the model's limits and the options"
 
 
 def is_transient(status: int) -> bool:

@@ -110,7 +110,7 @@ def read_request_fields(data: Any) -> dict[str, Any]:
 
 
 def read_request(fields: Mapping[str, Any]) -> Request:
-    """Return the request with these stored fields, without its images, of which only the digests are stored."""
+    """Return the request with these stored fields; images are missing, since only their digests are stored."""
     return Request(
         system=fields["system"],
         user=fields["user"],
@@ -162,7 +162,7 @@ def _read_token(data: Any) -> tuple[str, float]:
 
 
 def upgrade_completion(data: Any) -> Any:
-    """Return the stored fields of a completion, converted from format 1 if they are in it.
+    """Return the stored fields of a completion, converted if they are in format 1.
 
     Format 1 stored only the mean log-probability of the tokens. It is dropped, since the log-probability of a class
     cannot be derived from it; the completion then has no tokens. Data in another format are returned unchanged.
@@ -179,7 +179,7 @@ def checked(data: Any, kinds: Mapping[str, tuple[type, ...]], what: str) -> dict
     """Return the data if it is an object with exactly these fields of these types.
 
     Raises:
-        ValueError: it is not; the message states what was found and expected.
+        ValueError: the data has another form; the message states what was found and expected.
     """
     if not isinstance(data, dict) or data.keys() != kinds.keys():
         raise ValueError(f"{what} should be an object with {', '.join(kinds)}")

@@ -14,12 +14,12 @@ class TokenLogprobs:
         """Align the tokens with the text.
 
         Args:
-            text: a part of what the tokens spell; reasoning may precede it, and an end token may follow.
+            text: a part of the text spelled by the tokens; reasoning may precede it, and an end token may follow.
             tokens: text and natural log-probability of each token, in order.
         """
         spelled = "".join(piece for piece, _ in tokens)
         self._offset = spelled.rfind(text) if text else -1
-        """Position of the text in what the tokens spell; -1 if they spell something else."""
+        """Position of the text in the text spelled by the tokens; -1 if it does not occur there."""
         self._ends = list(accumulate(len(piece) for piece, _ in tokens))
         self._starts = [0, *self._ends[:-1]]
         self._logprobs = [logprob for _, logprob in tokens]

@@ -1,4 +1,4 @@
-"""vote: the class that most samples of an answer name, with their share as confidence.
+"""vote: the majority class over the samples of an answer, with its share of the votes as confidence.
 
 This is self-consistency (Wang et al., 2023).
 """
@@ -26,7 +26,7 @@ class ScoredAnswer:
 
 
 def vote(samples: Sequence[ScoredAnswer]) -> ScoredAnswer:
-    """Return the answer whose class most samples name, the first of them on a tie.
+    """Return the answer with the majority class, the first such class on a tie.
 
     Samples without a class count in the denominator of the shares. If no sample has a class, return the first one.
     """

@@ -1,1 +1,1 @@
-"""Batch jobs: prompts that a service answers within a day, at half the price."""
+"""Batch jobs: prompts that a service completes within 24 hours at half the price."""

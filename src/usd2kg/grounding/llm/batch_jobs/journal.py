@@ -1,8 +1,8 @@
-"""JobJournal: the batch jobs that were submitted, in the file of the cache, so that no answer is lost or paid twice.
+"""JobJournal: a record of submitted batch jobs in the cache file, so that no completion is lost or paid for twice.
 
-A job is recorded with its requests before it is submitted, and its id when the service has named it. If the process is
-killed between the two, the job has no id; `BatchDesk.submit` then looks for it at the service. The answers of a job
-are stored, and the job is closed, in one transaction.
+A job is recorded with its requests before it is submitted, and its id once the service returns it. If the process is
+killed in between, the job has no id, and `BatchQueue.submit` looks for it at the service. The completions of a job are
+stored and the job is closed in one transaction.
 """
 
 import json
@@ -45,20 +45,20 @@ _REQUESTS = (
 
 @dataclass(frozen=True, slots=True)
 class JobRecord:
-    """A job that is not closed."""
+    """An open job."""
 
     number: int
-    """Its number in the journal."""
+    """Number of the job in the journal."""
     model: str
     """The model string."""
     id: str | None
-    """The service's name for it; None if it is not known whether the service has received it."""
+    """Id given by the service; None if it is unknown whether the service received the job."""
     handle: Mapping[str, Any]
-    """What the client library needs to ask for the job, as JSON, without credentials."""
+    """JSON that the client library needs to poll the job, without credentials."""
     recorded_s: float
-    """Unix time before the submission."""
+    """Unix time just before the submission."""
     keys: frozenset[str]
-    """Cache keys of its requests."""
+    """Cache keys of the requests."""
 
 
 class JobJournal:
@@ -76,7 +76,7 @@ class JobJournal:
         """Exclude submissions of other processes, which might contain the same prompts.
 
         Raises:
-            GroundingError: another process still submits.
+            GroundingError: another process is still submitting.
         """
         try:
             with lock_exclusive(self._cache.path.parent, LIMITS.submission_lock_s):
@@ -106,7 +106,7 @@ class JobJournal:
 
     def begin(self, model: str, requests: Iterable[Request], handle: Mapping[str, Any]) -> JobRecord:
         """Record a job before it is submitted."""
-        # The completion of an entry has no meaning here.
+        # The empty completion is a placeholder; only the request columns are stored.
         entries = [make_entry(model, request_fields(request), Completion("")) for request in requests]
         now = time.time()
         with self._cache.transaction() as connection:
@@ -145,7 +145,7 @@ class JobJournal:
                 if key in completions:
                     self._cache.insert(_entry(job.model, texts, completions[key]))
             connection.execute("DELETE FROM job_requests WHERE job = ?", (job.number,))
-            # Its id stays, so that it is not mistaken for a job whose id is not known.
+            # Keep the id: `known_ids` must not mistake this job for one that was submitted without an id.
             connection.execute("UPDATE jobs SET is_open = 0 WHERE number = ?", (job.number,))
 
 

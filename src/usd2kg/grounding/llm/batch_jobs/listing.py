@@ -1,4 +1,4 @@
-"""list_recent_jobs: the batch jobs that a service has received since a moment, whoever submitted them."""
+"""list_recent_jobs: all batch jobs created at a service since a given time, by any client of the account."""
 
 from collections.abc import AsyncIterator, Callable
 from datetime import UTC, datetime
@@ -25,11 +25,11 @@ class RecentJob(NamedTuple):
     created: datetime
     """With time zone."""
     request_count: int | None
-    """None if the service does not say, or does not know yet."""
+    """None if the service does not report it, or not yet."""
 
 
 async def list_recent_jobs(provider_model: "Model[Any]", since: datetime) -> list[RecentJob]:
-    """Return the jobs that were created since a moment with a time zone.
+    """Return the jobs created since a time, given with its time zone.
 
     Raises:
         Exception: the request fails; one of `library_errors`.

@@ -1,4 +1,4 @@
-"""BatchService: the batch endpoint of a service, through the client library of single requests."""
+"""BatchService: the batch endpoint of a service, reached through the same client library as single requests."""
 
 import json
 from collections.abc import Callable, Coroutine, Iterable, Iterator, Mapping
@@ -35,12 +35,12 @@ _MALFORMED = (AttributeError, KeyError, TypeError, ValueError)
 _REFUSED, _TIMED_OUT, _TOO_MANY, _FAILED = 400, 408, 429, 500
 
 JobHandle = Mapping[str, Any]
-"""What the client library needs to ask for a job, as JSON, without the hash of the credentials."""
+"""JSON that the client library needs to poll a job, without the hash of the credentials."""
 
 
 @dataclass(frozen=True, slots=True)
 class EncodedJob:
-    """Requests in the format of the service, at most as many as a job may have."""
+    """Requests in the format of the service, within its size limit for a job."""
 
     sources: list[Request]
     requests: "list[EncodedBatchRequest]"
@@ -48,16 +48,16 @@ class EncodedJob:
 
 @dataclass(frozen=True, slots=True)
 class JobResults:
-    """What a job that has ended says about its rows."""
+    """Results of an ended job."""
 
     rows: "dict[str, BatchResult]"
     """By row id."""
     problem: str = ""
-    """Why there are none; empty unless the job failed as a whole, which costs nothing."""
+    """Reason for a failure of the whole job, which costs nothing; empty otherwise."""
 
 
 def row_id(key: str) -> str:
-    """Return the id of a request's row, the digest in its cache key: 64 characters, as many as Anthropic allows."""
+    """Return the row id of a request: the digest in its cache key, 64 characters, which is Anthropic's limit."""
     return key.removeprefix("sha256:")
 
 
@@ -77,7 +77,7 @@ class BatchService:
 
         Args:
             reference: the model.
-            provider_model: the model of pydantic-ai, which has a batch endpoint.
+            provider_model: a pydantic-ai model whose service has a batch endpoint.
             run: returns the result of a coroutine that sends a request.
             redact: removes credentials from messages.
             retries: when to repeat a request.
@@ -90,7 +90,7 @@ class BatchService:
         self.url = reference.url
 
     def encode_jobs(self, requests: Iterable[Request]) -> Iterator[EncodedJob]:
-        """Yield the requests in as few jobs as the service allows.
+        """Yield the requests grouped into as few jobs as the service allows.
 
         Raises:
             GroundingError: a request cannot be part of a job.
@@ -114,7 +114,7 @@ class BatchService:
             yield job
 
     def draft_handle(self, job: EncodedJob) -> JobHandle:
-        """Return the handle of a job that is not submitted: without id, created at no known time."""
+        """Return the handle of a job before submission: without id or creation time."""
         from pydantic_ai.models.batch import Batch  # noqa: PLC0415 - the extra may be missing
 
         handle = Batch(
@@ -129,19 +129,19 @@ class BatchService:
         return _dump(handle)
 
     def submit(self, job: EncodedJob) -> JobHandle | Failure:
-        """Submit a job and return its handle; `is_refusal` tells whether a failure means that there is no job."""
+        """Submit a job and return its handle; `is_refusal` distinguishes failures that created no job."""
 
         def send() -> JobHandle | Failure:
             outcome = self._send(self._model.batch_create(job.requests))
             if isinstance(outcome, Failure):
-                # Of the failures that may pass, only this one means that there is no job yet.
+                # The only transient failure that guarantees that no job was created.
                 return replace(outcome, is_transient=outcome.status == _TOO_MANY)
             return _dump(outcome)
 
         return self._retries.run(send)
 
     def refresh(self, handle: JobHandle) -> JobHandle | Failure:
-        """Return the handle of a job as it is now."""
+        """Return the current handle of a job."""
 
         def send() -> JobHandle | Failure:
             outcome = self._send(self._model.batch_status(_load(handle)))
@@ -150,7 +150,7 @@ class BatchService:
         return self._retries.run(send)
 
     def fetch_results(self, handle: JobHandle) -> JobResults | Failure:
-        """Return the results of a job that has ended."""
+        """Return the results of an ended job."""
         return self._retries.run(lambda: self._send(self._fetch_results(_load(handle))))
 
     async def _fetch_results(self, handle: "Batch") -> JobResults:
@@ -163,11 +163,11 @@ class BatchService:
         return JobResults({result.custom_id: result for result in results})
 
     def list_recent(self, since: datetime) -> list[RecentJob] | Failure:
-        """Return the jobs that the service has received since a moment with a time zone."""
+        """Return the jobs that the service received since a time, given with its time zone."""
         return self._retries.run(lambda: self._send(list_recent_jobs(self._model, since)))
 
     def read_result(self, result: "BatchResult", request: Request) -> Completion | Failure:
-        """Return the completion in a result, or why there is none."""
+        """Return the completion in a result, or the failure of its row."""
         from pydantic_ai.exceptions import AgentRunError  # noqa: PLC0415 - the extra may be missing
 
         try:
@@ -211,14 +211,14 @@ class BatchService:
         except AgentRunError as error:
             return convert_error(error, self._redact)
         except UserError as error:
-            # The library refuses to send it.
+            # The library rejects the request before sending it.
             return Failure(self._redact(str(error)), _REFUSED)
         except _MALFORMED as error:
             return Failure(self._redact(f"the answer is malformed ({error})"))
 
 
 def is_refusal(failure: Failure) -> bool:
-    """Return whether a submission that failed has certainly created no job."""
+    """Return whether a failed submission certainly created no job."""
     return failure.status is not None and failure.status < _FAILED and failure.status != _TIMED_OUT
 
 
@@ -226,7 +226,7 @@ def _dump(handle: "Batch") -> JobHandle:
     from pydantic import TypeAdapter  # noqa: PLC0415 - the extra may be missing
     from pydantic_ai.models.batch import Batch  # noqa: PLC0415
 
-    # The hash of the key serves to group requests for a submission. It is not needed afterwards.
+    # The library hashes the API key to group requests for submission; the hash is not needed afterwards.
     group = json.dumps(json.loads(handle.group) | {"credential": ""}, sort_keys=True)
     data: JobHandle = TypeAdapter(Batch).dump_python(replace(handle, group=group), mode="json")
     return data

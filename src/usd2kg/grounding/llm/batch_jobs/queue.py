@@ -1,4 +1,4 @@
-"""BatchDesk: collects prompts, submits them as jobs, waits, and stores the answers."""
+"""BatchQueue: collects prompts, submits them as batch jobs, polls the jobs and stores their completions."""
 
 import logging
 import time
@@ -16,7 +16,7 @@ from usd2kg.grounding.llm.limits import LIMITS
 from usd2kg.grounding.llm.retry import Failure
 from usd2kg.grounding.llm.serialization import request_key
 
-__all__ = ["BatchDesk", "DeferredError", "Reporting"]
+__all__ = ["BatchQueue", "DeferredError", "Reporting"]
 
 logger = logging.getLogger(__name__)
 
@@ -28,79 +28,79 @@ _AGAIN = "the same command submits it again, or asks it alone without --batch"
 
 
 class DeferredError(GroundingError):
-    """A prompt waits for the next job."""
+    """The prompt is deferred to the next batch job."""
 
 
 @dataclass(frozen=True)
 class Reporting:
-    """What the user sees of jobs."""
+    """Callbacks for progress messages and delays."""
 
     say: Callable[[str], object] = logger.info
     """Prints a line."""
     show: Callable[[str], object] = logger.debug
-    """Shows the state while jobs are awaited."""
+    """Shows the state while jobs are pending."""
     sleep: Callable[[float], object] = time.sleep
     """Waits for a number of seconds."""
 
 
 @dataclass(slots=True)
 class _Outcome:
-    """What a job brought for its rows."""
+    """Results of a job by cache key."""
 
     completions: dict[str, Completion] = field(default_factory=dict)
     failures: dict[str, str] = field(default_factory=dict)
     repeated: int = 0
     """Rows that are submitted again without a feature that the service rejects."""
     unknown: int = 0
-    """Rows that are of no request of the job."""
+    """Rows that match no request of the job."""
 
 
-class BatchDesk:
+class BatchQueue:
     """The jobs of one model. `defer` is thread-safe."""
 
     def __init__(self, model: str, journal: JobJournal, service: BatchService, reporting: Reporting) -> None:
-        """Create a desk.
+        """Create an empty queue.
 
         Args:
             model: the model string.
-            journal: the jobs on disk.
+            journal: the record of jobs on disk.
             service: the batch endpoint of the model.
-            reporting: what the user sees.
+            reporting: callbacks for progress messages and delays.
         """
         self._model, self._journal, self._service, self._reporting = model, journal, service, reporting
         self._deferred: dict[str, Request] = {}
         self._failures: dict[str, str] = {}
         self._answered: set[str] = set()
-        self._awaited: list[JobRecord] = []
+        self._pending: list[JobRecord] = []
         self._failed_polls: dict[int, int] = {}
-        """Number of a job → failed polls in a row."""
+        """Job number → consecutive failed polls."""
         self._lock = Lock()
 
     def defer(self, request: Request) -> None:
-        """Keep a prompt for the next job.
+        """Queue a prompt for the next job.
 
         Raises:
-            GroundingError: always: `DeferredError`, or the reason why an earlier job of this run did not answer it.
+            GroundingError: always; `DeferredError`, or the failure of an earlier job of this run for this prompt.
         """
         key = request_key(self._model, request)
         with self._lock:
             if (failure := self._failures.get(key)) is None:
-                assert key not in self._answered, "an answer that was paid is not in the cache"
+                assert key not in self._answered, "a completion from a batch job is missing from the cache"
                 self._deferred[key] = request
         if failure is not None:
             raise GroundingError(failure)
-        raise DeferredError("waits for the next job")
+        raise DeferredError("deferred to the next batch job")
 
     def submit(self, refuse: Callable[[Mapping[str, Request], Mapping[str, Request]], Set[str]]) -> bool:
-        """Submit the deferred prompts that no open job contains; return whether any were deferred.
+        """Submit the deferred prompts that are not part of an open job; return whether any were deferred.
 
         Args:
-            refuse: gets prompts of open jobs and new ones by cache key, and returns the keys of new ones that are not
-                submitted.
+            refuse: takes the prompts of open jobs and the new prompts by cache key, and returns the keys of the new
+                prompts not to submit.
 
         Raises:
-            GroundingError: it cannot be found out whether a job of an earlier run has arrived, or a prompt cannot be
-                part of a job.
+            GroundingError: the service does not answer whether it received a job of an earlier run, or a prompt cannot
+                be part of a job.
         """
         deferred, self._deferred = self._deferred, {}
         if not deferred:
@@ -109,40 +109,40 @@ class BatchDesk:
             for job in unsettled:
                 self._settle(job)
         with self._journal.submitting():
-            # Another process may have submitted them meanwhile.
+            # Another process may have submitted these prompts in the meantime.
             running = self._open_jobs(deferred)
             covered = {key for job in running for key in job.keys}
             new = {key: request for key, request in deferred.items() if key not in covered}
             refused = refuse({key: deferred[key] for key in deferred.keys() & covered}, new)
             for job in running:
-                self._say_that_it_runs(job)
+                self._report_running(job)
             submitted = self._submit_new([request for key, request in new.items() if key not in refused])
-        self._awaited = [*running, *submitted]
+        self._pending = [*running, *submitted]
         return True
 
     def collect(self) -> dict[str, Completion]:
         """Wait for the jobs of `submit`, store their completions, and return them by cache key.
 
         Raises:
-            KeyboardInterrupt: the user ends the wait; the jobs go on.
+            KeyboardInterrupt: the user stops waiting; the jobs keep running at the service.
         """
         completions: dict[str, Completion] = {}
         start, wait_s = time.monotonic(), LIMITS.first_poll_s
         try:
-            while self._awaited:
-                for job in list(self._awaited):
+            while self._pending:
+                for job in list(self._pending):
                     if (outcome := self._collect_if_ended(job)) is not None:
-                        self._awaited.remove(job)
+                        self._pending.remove(job)
                         completions |= outcome.completions
                         self._answered |= outcome.completions.keys()
                         self._failures |= outcome.failures
-                if self._awaited:
+                if self._pending:
                     elapsed = timedelta(seconds=round(time.monotonic() - start))
-                    self._reporting.show(f"waiting for {_enumerate(self._awaited)}, {elapsed}")
+                    self._reporting.show(f"waiting for {_enumerate(self._pending)}, {elapsed}")
                     self._reporting.sleep(wait_s)
                     wait_s = min(wait_s * LIMITS.poll_growth, LIMITS.max_poll_s)
         except KeyboardInterrupt:
-            self._reporting.say(f"{_enumerate(self._awaited)}: still at the service; {_RESUME}")
+            self._reporting.say(f"{_enumerate(self._pending)}: still running at the service; {_RESUME}")
             raise
         return completions
 
@@ -164,7 +164,7 @@ class BatchDesk:
         record = self._journal.confirm(record, handle["id"], handle)
         self._reporting.say(
             f"batch job {record.id}: {len(record.keys)} prompts submitted to {self._service.url}; "
-            f"Ctrl-C ends the wait, {_RESUME}"
+            f"Ctrl-C stops waiting, {_RESUME}"
         )
         return record
 
@@ -172,29 +172,29 @@ class BatchDesk:
         problem = _explain(failure)
         if is_refusal(failure):
             self._journal.close(record, {})
-            reason = f"model '{self._model}': {self._service.url}: the batch job is refused: {problem}"
+            reason = f"model '{self._model}': {self._service.url}: the service rejected the batch job: {problem}"
         else:
             reason = (
-                f"model '{self._model}': {self._service.url}: it is not known whether the batch job has arrived "
-                f"({problem}); run the same command again, which looks for it first"
+                f"model '{self._model}': {self._service.url}: it is unknown whether the service received the batch "
+                f"job ({problem}); run the same command again to check"
             )
         self._failures.update(dict.fromkeys(record.keys, reason))
 
-    def _say_that_it_runs(self, job: JobRecord) -> None:
+    def _report_running(self, job: JobRecord) -> None:
         when = datetime.fromtimestamp(job.recorded_s).astimezone().isoformat(" ", "minutes")
-        self._reporting.say(f"batch job {job.id}: {len(job.keys)} prompts are at {self._service.url} since {when}")
+        self._reporting.say(f"batch job {job.id}: {len(job.keys)} prompts running at {self._service.url} since {when}")
 
     def _settle(self, record: JobRecord) -> None:
-        """Find out whether a job without id has arrived: confirm it, or else close it.
+        """Confirm a job without id if the service received it, or else close it.
 
-        Not all services let us name a job. So each unknown job that has arrived since is awaited; it is the one if it
-        has the same rows.
+        Not all services accept a client-supplied job name, so the job is identified by its rows: each unknown job that
+        the service received since the submission is polled until it ends.
 
         Raises:
-            GroundingError: the service cannot be asked.
+            GroundingError: the service cannot be reached.
         """
         age_s = time.time() - record.recorded_s
-        # The list of a service may lack the newest jobs.
+        # The service's job list lags behind submissions.
         self._reporting.sleep(max(0.0, LIMITS.job_settle_s - age_s))
         since = datetime.fromtimestamp(record.recorded_s, UTC) - timedelta(seconds=LIMITS.clock_skew_s)
         recent = self._checked(self._service.list_recent(since))
@@ -221,13 +221,13 @@ class BatchDesk:
     def _checked(self, outcome: _T | Failure) -> _T:
         if isinstance(outcome, Failure):
             raise GroundingError(
-                f"model '{self._model}': {self._service.url}: the batch job of an earlier run cannot be looked for "
-                f"({_explain(outcome)}); run the same command again later"
+                f"model '{self._model}': {self._service.url}: cannot check whether the batch job of an earlier run "
+                f"exists ({_explain(outcome)}); run the same command again later"
             )
         return outcome
 
     def _collect_if_ended(self, job: JobRecord) -> _Outcome | None:
-        """Return what a job brought, after storing it; None if it has not ended."""
+        """Return the results of a job after storing them; None if it has not ended."""
         handle = self._service.refresh(job.handle)
         if isinstance(handle, Failure):
             return self._fail_poll(job, handle)
@@ -239,15 +239,15 @@ class BatchDesk:
             return self._fail_poll(job, results)
         outcome = self._read_results(job, results)
         self._journal.close(job, outcome.completions)
-        self._say_what_it_brought(job, outcome)
+        self._report_outcome(job, outcome)
         return outcome
 
     def _fail_poll(self, job: JobRecord, failure: Failure) -> _Outcome | None:
-        """Return that a job cannot be asked for, after some attempts if the failure may pass. The job stays open."""
+        """Return the failure of a poll for all prompts of the job, or None to poll again. The job stays open."""
         self._failed_polls[job.number] = count = self._failed_polls.get(job.number, 0) + 1
         if failure.is_transient and count < LIMITS.max_failed_polls:
             return None
-        unknown = f", or give it up with usd2kg completions forget {job.id}" if failure.status == _NOT_FOUND else ""
+        unknown = f", or discard it with usd2kg completions forget {job.id}" if failure.status == _NOT_FOUND else ""
         reason = f"batch job {job.id}: {self._service.url}: {_explain(failure)}; {_RESUME}{unknown}"
         return _Outcome(failures=dict.fromkeys(job.keys, reason))
 
@@ -271,15 +271,15 @@ class BatchDesk:
                 outcome.failures[key] = f"batch job {job.id}: {_explain(read)}; {_AGAIN}"
         return outcome
 
-    def _say_what_it_brought(self, job: JobRecord, outcome: _Outcome) -> None:
+    def _report_outcome(self, job: JobRecord, outcome: _Outcome) -> None:
         parts = [f"{len(outcome.completions)} of {len(job.keys)} answers"]
         if outcome.failures:
             reason = next(iter(outcome.failures.values())).removeprefix(f"batch job {job.id}: ")
-            parts.append(f"{len(outcome.failures)} failed, the first one: {reason}")
+            parts.append(f"{len(outcome.failures)} failed, the first with: {reason}")
         if outcome.repeated:
             parts.append(f"{outcome.repeated} submitted again without an option that the service rejects")
         if outcome.unknown:
-            parts.append(f"{outcome.unknown} rows ignored, which are of no prompt of the job")
+            parts.append(f"{outcome.unknown} rows ignored that match no prompt of the job")
         elapsed = timedelta(seconds=round(time.time() - job.recorded_s))
         self._reporting.say(f"batch job {job.id}: ended {elapsed} after its submission: {', '.join(parts)}")
 
