@@ -26,11 +26,11 @@ def fetch_scenes(
 ) -> Path:
     """Download the files of scenes into a folder for each, and return the matrix of them, for `eval reproduce`.
 
-    Files that exist with the right hash are not downloaded. A file is written when all of it has arrived with the right
-    hash, so an interrupted download leaves none, and the same call goes on with that file.
+    Files that exist with the right hash are not downloaded. A file is written only after it has been downloaded
+    completely with the right hash, so an interrupted download leaves no partial file, and the same call resumes it.
 
     Args:
-        scenes: what to fetch.
+        scenes: the scenes to fetch.
         folder: destination, created if it does not exist.
         overwrites: replace existing files that differ.
         report: called with one line per file.
@@ -58,10 +58,10 @@ def fetch_scenes(
 
 
 def _check_unchanged(missing: Sequence[Path], matrix: tuple[Path, bytes]) -> None:
-    """Check that no file that would be written exists.
+    """Check that no existing file would be changed.
 
     Raises:
-        EvaluationError: one does, and differs.
+        EvaluationError: a file exists and differs.
     """
     path, text = matrix
     is_other_matrix = path.exists() and path.read_bytes() != text
@@ -77,7 +77,7 @@ def _verified(file: ManifestFile) -> Iterator[bytes]:
     """Yield the bytes of a file.
 
     Raises:
-        EvaluationError: it cannot be downloaded, or at the end, its hash is wrong.
+        EvaluationError: the file cannot be downloaded, or its hash is wrong; the latter is raised at the end.
     """
     digest = hashlib.sha256()
     for chunk in download(file.address, max_bytes=FETCH.file_bytes, timeout_s=FETCH.timeout_s, error=EvaluationError):
@@ -85,8 +85,8 @@ def _verified(file: ManifestFile) -> Iterator[bytes]:
         yield chunk
     if digest.hexdigest() != file.sha256:
         raise EvaluationError(
-            f"{shown_address(file.address)}: sha256 is {digest.hexdigest()}, expected {file.sha256}: this is another "
-            "file; ask who published the manifest, it was not written"
+            f"{shown_address(file.address)}: sha256 is {digest.hexdigest()}, expected {file.sha256}; the file was "
+            "not written, ask the publisher of the manifest"
         )
 
 
@@ -98,7 +98,7 @@ def _make_folder(folder: Path) -> None:
 
 
 def _format_matrix(scenes: Sequence[ManifestScene]) -> str:
-    """Return a matrix of the scenes with the offline grounders; strings of JSON are strings of TOML."""
+    """Return a matrix of the scenes with the offline grounders; JSON strings are valid TOML strings."""
     lines = ['title = "Fetched scenes"']
     for scene in scenes:
         lines += ["", "[[scene]]", f"name = {_quote(scene.name)}"]

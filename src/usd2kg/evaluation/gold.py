@@ -21,7 +21,7 @@ class GoldLabel:
     prim_path: str
     target: ClassIRI
     also: frozenset[ClassIRI]
-    """Other defensible classes, without the target."""
+    """Other defensible classes, excluding the target."""
 
 
 def read_gold(path: Path, tbox: TBox) -> tuple[GoldLabel, ...]:

@@ -78,11 +78,11 @@ def _layers(folder: Path) -> Iterator[Path]:
 
 
 def study_objects(scene: Scene) -> tuple[SceneObject, ...]:
-    """Return the objects that come nearest to the study's list, which is not public.
+    """Return the objects that best approximate the study's list, which is not public.
 
     The study lists object-level prims, without grouping prims, cameras, lights, sub-components and prims without
-    geometry. Our object selection leaves out the first three; this leaves out objects inside other objects, which are
-    their components, and objects without a box.
+    geometry. Our object selection excludes the first three; this function also excludes objects inside other objects,
+    which are their components, and objects without a box.
     """
     return tuple(obj for obj in scene.objects if obj.parent_path is None and obj.box is not None)
 

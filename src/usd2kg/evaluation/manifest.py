@@ -39,11 +39,11 @@ class ManifestScene:
     """A labelled scene and its files."""
 
     name: str
-    """Also the name of its folder."""
+    """Name of the scene and of its folder."""
     licence: str
     """SPDX identifier, or the name of the licence."""
     note: str
-    """Where it is from and who labelled it; empty if nothing is said."""
+    """Origin and annotator; empty if not stated."""
     stage: str
     """The root layer, one of the files."""
     gold: str
@@ -81,11 +81,11 @@ def _scene(path: Path, entry: Mapping[str, Any]) -> ManifestScene:
     for key, file in (("stage", stage), ("gold", gold), ("ontology", ontology)):
         if file not in {one.file for one in files} and (file or key != "ontology"):
             raise EvaluationError(
-                f"{path}: scene {name!r}: its {key} {file!r} is none of its files; expected a [[scene.file]] with it"
+                f"{path}: scene {name!r}: its {key} {file!r} is not among its files; add a [[scene.file]] for it"
             )
     licence = str(entry["licence"]).strip()
     if not licence:
-        raise EvaluationError(f"{path}: scene {name!r}: its licence is empty; state the one that permits sharing it")
+        raise EvaluationError(f"{path}: scene {name!r}: its licence is empty; state one that permits sharing")
     return ManifestScene(name, licence, str(entry.get("note", "")), stage, gold, ontology, files)
 
 
@@ -104,7 +104,7 @@ def _file(path: Path, scene: str, entry: Mapping[str, Any]) -> ManifestFile:
 def _checked_name(path: Path, name: str) -> str:
     if not _NAME.fullmatch(name) or name.lower() == "matrix.toml":
         raise EvaluationError(
-            f"{path}: {name!r} is no name of a file or folder; expected letters, digits, spaces, `.`, `_` and `-`, "
+            f"{path}: {name!r} is not a valid file or folder name; expected letters, digits, spaces, `.`, `_` and `-`, "
             "relative to the folder of the scene"
         )
     return name

@@ -51,7 +51,7 @@ class SceneSpec:
     ontology: Path | None
     """A file, or the name of a built-in TBox; None for that of homes."""
     note: str
-    """Printed next to the results: who labelled the scene, and whether it is tuning data."""
+    """Remark printed next to the results: who labelled the scene, and whether it is tuning data."""
     is_optional: bool
     """Whether the scene is skipped if its files are missing; otherwise that is an error."""
 
@@ -75,7 +75,7 @@ class Cell:
     evidence: frozenset[str] | None
     repeat: int
     cascade: float | None = None
-    """Confidence of the lexical grounder below which `grounder`, a language model, is asked; None to ask it always."""
+    """Confidence of the lexical grounder below which the language model `grounder` is asked; None asks it always."""
 
     @property
     def method(self) -> str:
@@ -93,9 +93,9 @@ class Matrix:
     regimes: tuple[NamingRegime, ...]
     repeats: int
     ablation: Ablation = field(default_factory=dict)
-    """Conditions with less evidence; empty for none."""
+    """Ablation conditions; empty for none."""
     ablated: tuple[str, ...] = ()
-    """The grounders that are run under these conditions."""
+    """The grounders that are run under the ablation conditions."""
     cascades: tuple[float, ...] = ()
     """Thresholds at which each language model is also run behind the lexical grounder, under `regimes`."""
 

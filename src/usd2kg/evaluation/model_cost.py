@@ -1,4 +1,4 @@
-"""ModelCost: what the completions behind one result cost, and how many of them were useless."""
+"""ModelCost: cost of the completions behind one result, and counts of unusable completions."""
 
 from collections.abc import Mapping
 from dataclasses import asdict, dataclass
@@ -13,28 +13,28 @@ __all__ = ["ModelCost"]
 
 @dataclass(frozen=True, slots=True)
 class ModelCost:
-    """Counts of one result, as if no completion had been cached: independent of what earlier runs had asked."""
+    """Counts of one result as if no completion had been cached, so that they do not depend on earlier runs."""
 
     objects: int
-    """Objects that the model was asked about: in a cascade, those that the first grounder is unsure of."""
+    """Objects that the model was asked about: in a cascade, those with a low confidence of the first grounder."""
     prompts: int
     """Distinct prompts, without repairs."""
     completions: int
     """Completions of prompts and repairs."""
     cached: int
-    """Of these, completions from the cache, which cost nothing in this run."""
+    """Completions from the cache, which cost nothing in this run."""
     repairs: int
-    """Prompts that were repeated since an answer was unreadable."""
+    """Prompts that were repeated because an answer was unreadable."""
     degenerate: int
     """Completions that are empty, repeat themselves or were truncated."""
     hallucinated_objects: int
-    """Objects without a class since the last answer names one that was not offered."""
+    """Objects without a class because the last answer names a class that was not offered."""
     degenerate_objects: int
-    """Objects without a class since the last completion is degenerate."""
+    """Objects without a class because the last completion is degenerate."""
     input_tokens: int
     output_tokens: int
     estimated_tokens: int
-    """Tokens above that the server did not report and that are estimated."""
+    """The part of these tokens that is estimated because the server did not report it."""
     dollars: Decimal | None
     """US dollars for these tokens; None if the price of the model is unknown."""
     paid: Decimal | None

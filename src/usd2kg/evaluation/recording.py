@@ -1,4 +1,4 @@
-"""The recording of a matrix: the completions behind its results, which replay without keys."""
+"""The recording of a matrix: the completions behind its results, for replay without API keys."""
 
 import logging
 from collections.abc import Iterable
@@ -13,7 +13,7 @@ __all__ = ["RECORDING", "restore_recording", "write_recording"]
 logger = logging.getLogger(__name__)
 
 RECORDING = "recording.jsonl.gz"
-"""Its file in the folder of the results."""
+"""File name in the folder of the results."""
 
 
 def restore_recording(folder: Path, settings: "LLMSettings | None") -> None:
@@ -45,7 +45,7 @@ def write_recording(folder: Path, settings: "LLMSettings | None", keys: Iterable
         written = cache.export_recording(folder / RECORDING, wanted)
     if written < len(wanted):
         logger.warning(
-            "%s lacks %d of %d completions, which are no longer in the cache; ask for them with --refresh",
+            "%s lacks %d of %d completions, which are no longer in the cache; request them with --refresh",
             folder / RECORDING,
             len(wanted) - written,
             len(wanted),

@@ -16,7 +16,7 @@ from usd2kg.scene import ASKED_FOR, Scene
 __all__ = ["Evaluation", "evaluate", "evaluation_json", "score_grounding", "score_scene_selection"]
 
 _END_TO_END = ("answered", "ema", "ema_interval", "ema_name_interval", "ema_also", "hf1", "hf1_interval")
-"""The figures of the end-to-end score in JSON."""
+"""The metrics of the end-to-end score in JSON."""
 
 
 @dataclass(frozen=True)
@@ -26,9 +26,9 @@ class Evaluation:
     grounding: Grounding
     scores: tuple[Score, ...]
     summary: Summary
-    """Of all labelled objects, whether or not the object selection finds them."""
+    """Summary over all labelled objects, whether or not the object selection finds them."""
     end_to_end: Summary
-    """The same if objects that the object selection misses count as wrong."""
+    """Summary in which objects that the object selection misses count as wrong."""
     seconds: float
     """Wall time of grounding the labelled objects, without reading the scene."""
 

@@ -13,7 +13,7 @@ _BASELINES = ("dictionary", "volume", "embedding")
 """The study's Multiverse, LV-NN and S-BERT."""
 _OWN = "lexical"
 _ABLATED = "B"
-"""The strategy whose evidence the study ablates. A has no evidence but the name."""
+"""The strategy of the study's ablation. Strategy A has no evidence to remove except the name."""
 
 
 def find_unavailable_baselines() -> dict[str, str]:

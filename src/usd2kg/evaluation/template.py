@@ -16,8 +16,8 @@ _COLUMNS = ("path", "class", "also", "words", "size_m", "asset", "documentation"
 def gold_template(scene: Scene, suggestions: Grounding | None = None, tbox: TBox | None = None) -> str:
     """Return a CSV file with one row per object and empty columns `class` and `also`.
 
-    Further columns help a person to decide; `read_gold` ignores them. With `suggestions`, `class` is filled in for
-    review. Do not evaluate a grounder on labels that started from its own answers.
+    Further columns help the annotator; `read_gold` ignores them. With `suggestions`, `class` is pre-filled for review.
+    Do not evaluate a grounder on labels that started from its own answers.
     """
     text = io.StringIO()
     writer = csv.writer(text, lineterminator="\n")

@@ -57,8 +57,8 @@ def calibration_error(scores: Sequence[Score], bins: int = CONFIDENCE.bins) -> f
 def risk_coverage_curve(scores: Sequence[Score], *, accepting: bool = False) -> tuple[tuple[float, float], ...]:
     """Return the points (coverage, risk) as the confidence threshold falls; ties enter together.
 
-    Coverage is the share of all objects whose answer reaches the threshold, risk the share of wrong answers among
-    these. Answers without a confidence are never covered.
+    Coverage is the share of all objects whose confidence reaches the threshold; risk is the share of wrong answers
+    among the covered objects. Answers without a confidence are never covered.
 
     Args:
         scores: the scores.

@@ -23,7 +23,7 @@ class ClassReport:
 
     @property
     def precision(self) -> float | None:
-        """Share of its answers that are right; None if it was never the answer."""
+        """Share of the answers with this class that are right; None if there are none."""
         return self.correct / self.answered if self.answered else None
 
     @property

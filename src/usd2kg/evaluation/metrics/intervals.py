@@ -50,7 +50,7 @@ def bootstrap_interval(
 
 
 def wilson_interval(right: int, total: int) -> Interval:
-    """Return the score interval of a share of independent draws (Wilson 1927); also good near 0 and 1 and for few.
+    """Return the Wilson score interval of a proportion (Wilson 1927), which also holds near 0 and 1 and for small n.
 
     Raises:
         ValueError: there are no draws.

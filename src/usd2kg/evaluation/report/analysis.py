@@ -78,7 +78,7 @@ class UnanimousObjects(NamedTuple):
     right: tuple[Score, ...]
     """Scores of the first method for the objects that all methods get right."""
     wrong: tuple[Score, ...]
-    """Scores of the first method for the objects that all methods get wrong, whatever the answers."""
+    """Scores of the first method for the objects that all methods get wrong, even if their answers differ."""
 
 
 def find_unanimous(by_method: Mapping[str, Sequence[Score]]) -> UnanimousObjects:
@@ -105,8 +105,8 @@ class SizeDistinctive(NamedTuple):
     found: tuple[Score, ...]
     """Right from geometry alone, but not without evidence; in gold order."""
     by_default: int
-    """Number of objects that are right from geometry alone and also without evidence: the method's default answer
-    happens to be their class."""
+    """Number of objects that are right from geometry alone but also without evidence, because the method's default
+    answer happens to be their class."""
 
 
 def find_size_distinctive(result: SceneResult) -> SizeDistinctive:
@@ -165,7 +165,7 @@ class NameQuality(NamedTuple):
     """Exact match by whether the authored name contains the head noun of the class."""
 
     named: int
-    """Number of objects whose name contains it."""
+    """Number of objects whose name contains the head noun."""
     ema_named: float | None
     """Exact match of these objects, percent; None if there are none."""
     other: int

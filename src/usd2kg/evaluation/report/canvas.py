@@ -20,9 +20,9 @@ _COLORS = ("#0072B2", "#E69F00", "#009E73", "#CC79A7", "#56B4E9", "#D55E00", "#7
 _MARKERS = ("o", "s", "^", "D", "v", "P", "X", "*")
 _LONGEST_LABEL = 40
 _LETTERS_PER_INCH = 12
-"""At the size of the font below."""
+"""Width of a letter at the font size below."""
 _SYMBOL_WIDTH = 6
-"""Letters that a symbol of a legend and the space beside it take."""
+"""Width of a legend symbol with its padding, in letters."""
 _SETTINGS: Mapping[Any, Any] = {
     "svg.hashsalt": "usd2kg",
     # Keep text as text: sharp, searchable, and rendered with the viewer's fonts if this font lacks a script.
@@ -85,7 +85,7 @@ def open_canvas(
 
 
 def to_figure(canvas: "Canvas", name: str, caption: str) -> Figure:
-    """Return the canvas in all formats, without a date. Pictures are as large as what is drawn, legends included."""
+    """Return the canvas in all formats, without a date, cropped to the drawn content including legends."""
     svg = _save(canvas, "svg", ("Date", "Creator", "Format", "Type")).decode("utf-8")
     return Figure(
         name,

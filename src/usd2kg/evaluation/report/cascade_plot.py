@@ -17,9 +17,9 @@ __all__ = ["plot_cascades"]
 _PER_OBJECTS = 1000
 _FIRST_TIER = "lexical"
 _LABEL_GAP = 0.08
-"""Share of the largest cost below which points have a common text."""
+"""Fraction of the largest cost within which points share a label."""
 _BELOW = 5
-"""Distance of a text from the interval above it, in points."""
+"""Distance of a label from the interval above it, in points."""
 
 
 class _Point(NamedTuple):
@@ -65,7 +65,7 @@ def _line(
     cells: Sequence[CellResult],
     runs: Mapping[tuple[str, str], Sequence[CellResult]],
 ) -> list[_Point]:
-    """Return the points of one line by threshold; results that lack answers or a price have none."""
+    """Return the points of one line by threshold, without results that lack answers or a price."""
     points = []
     if alone := runs.get((_FIRST_TIER, condition)):
         points.append(_Point(0.0, alone[0].evaluation.summary, "none"))
@@ -96,7 +96,7 @@ def _draw_line(axes: "Axes", points: Sequence[_Point], index: int, model: str, m
         text = near[0].text if len(near) == 1 else f"{near[0].text} to {near[-1].text}"
         lowest = min(point.summary.ema_name_interval.lower for point in near)
         place = ((near[0].dollars + near[-1].dollars) / 2, lowest)
-        # Upright, since texts side by side would overlap.
+        # Rotated, since adjacent labels would overlap.
         axes.annotate(
             text,
             place,
@@ -111,7 +111,7 @@ def _draw_line(axes: "Axes", points: Sequence[_Point], index: int, model: str, m
 
 
 def _group_near(points: Sequence[_Point], gap: float) -> list[list[_Point]]:
-    """Return successive points in groups with one text each, whose first and last are at most `gap` apart."""
+    """Return successive points in groups that share a label; the points of a group are at most `gap` apart."""
     groups: list[list[_Point]] = []
     for point in points:
         if groups and point.dollars - groups[-1][0].dollars <= gap:

@@ -24,7 +24,7 @@ AS_PUBLISHED = "as published, Kitchen Set with other labels (n = 125)"
 
 
 _BASELINES = {"dictionary": "Multiverse", "volume": "LV-NN", "embedding": "S-BERT"}
-"""Grounder → its name in the study."""
+"""Grounder → name of the method in the study."""
 _MODELS = {
     r"gemini-2\.5-flash(?!-lite|-image)": "Gemini 2.5 Flash",
     r"gemini-3-flash(?!-lite|-image)": "Gemini 3 Flash",
@@ -69,7 +69,7 @@ class Counterpart(NamedTuple):
 
     methods: tuple[str, ...]
     is_same: bool
-    """Whether there is one, with the same model and strategy; else they are all methods of the same strategy."""
+    """Whether the study has the same model and strategy; otherwise, `methods` are all methods of the same strategy."""
 
 
 def find_counterpart(grounder: str, *, is_thinking: bool) -> Counterpart | None:

@@ -1,4 +1,4 @@
-"""Report tables of language models: beside the study, classes of errors, cost, and cascades."""
+"""Report tables of language models: comparison with the study, classes of errors, cost, and cascades."""
 
 from collections.abc import Iterator, Sequence
 from decimal import Decimal
@@ -46,7 +46,7 @@ def _counterpart(done: CellResult) -> Counterpart | None:
 
 
 def _measured_text(repeats: Sequence[CellResult]) -> str:
-    """Return `EMA % / HF1`, or how many answers are missing."""
+    """Return `EMA % / HF1`, or the number of missing answers."""
     summaries = [done.evaluation.summary for done in repeats]
     if failures := repeats[0].failures:
         return f"incomplete: {len(failures)} of {summaries[0].n} failed"
@@ -83,7 +83,7 @@ def _range_text(ascending: Sequence[str]) -> str:
 def error_classes_table(result: SceneResult) -> Table | None:
     """Return the classes of errors that the study names, by language model and condition; None without such a model.
 
-    The columns after the number of objects add up to it.
+    The columns after the number of objects add up to that number.
     """
     rows = tuple(
         (method, condition, *map(str, _error_counts(repeats[0])))
@@ -97,7 +97,7 @@ def error_classes_table(result: SceneResult) -> Table | None:
     note = (
         "Superclass collapse: the gold class is a leaf, the answer one of its superclasses. Sibling confusion: both "
         "have a direct superclass in common. Where the gold class is a superclass, a leaf that the study calls a "
-        "sibling is a subclass of it. A hallucinated class is not in the ontology, also after a repair. The study "
+        "sibling is a subclass of it. A hallucinated class is not in the ontology, even after a repair. The study "
         "names these errors without counts; one of its results is degenerate output throughout: Qwen 3.5-27B "
         "thinking A under opaque names."
     )
@@ -124,7 +124,7 @@ def _error_counts(done: CellResult) -> Iterator[int]:
 
 
 def cost_table(results: Sequence[SceneResult]) -> Table | None:
-    """Return prompts, tokens, dollars and seconds of each result of a language model, with a sum; None without one."""
+    """Return prompts, tokens, dollars and seconds of each language model result, with a total; None if none."""
     each = [(result.spec.name, done) for result in results for done in result.cells if done.cost is not None]
     if not each:
         return None
