@@ -221,7 +221,7 @@ def test_what_was_finished_survives_a_kill(run: Run, scenes: Scenes, tmp_path: P
         _, said = process.communicate(timeout=30)
     if sent != signal.SIGKILL:
         assert process.returncode == 130
-        assert "the same command goes on from there" in said
+        assert "the same command resumes from there" in said
     for _ in range(100):
         if not [*workers_of(process.pid)]:
             break

@@ -152,7 +152,7 @@ class TestBuild:
         done = run("build", room, "-o", "room.ttl", "--reviewer", "Ann")
         assert (done.code, done.err) == (
             2,
-            "usd2kg: --reviewer Ann: there are no decisions; name them with --decisions\n",
+            "usd2kg: --reviewer Ann: there are no decisions; give them with --decisions\n",
         )
 
     def test_leaves_the_source_unchanged(self, run: Run, room: Path):
@@ -419,8 +419,14 @@ class TestOntology:
     @pytest.mark.parametrize(
         ("arguments", "message"),
         [
-            (["ontology", "align", "--subclasses", "x.ttl"], "--subclasses and --scene belong together; expected both"),
-            (["ontology", "align", "--scene", "room.usda"], "--subclasses and --scene belong together; expected both"),
+            (
+                ["ontology", "align", "--subclasses", "x.ttl"],
+                "--subclasses and --scene require each other; expected both",
+            ),
+            (
+                ["ontology", "align", "--scene", "room.usda"],
+                "--subclasses and --scene require each other; expected both",
+            ),
             (
                 ["ground", "room.usda", "--grounder", "volume", "--alignment", "x.tsv"],
                 "grounder 'volume' takes no alignment; choose the grounder lexical",

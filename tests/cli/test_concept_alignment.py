@@ -42,7 +42,7 @@ def test_answers_settle_later_objects_of_their_concepts(run: Run, write_stage, t
 
     assert (asked.code, after.code) == (0, 0)
     assert classes(asked.out) == {"mug_1": "Bowl", "mug_2": "Bowl", "qzxv_1": "Knife"}
-    assert f"3 rows for --alignment in {answers}; 0 left out, since their answers differ" in asked.err
+    assert f"3 rows for --alignment in {answers}; 0 omitted because of conflicting answers" in asked.err
     found = [(row["subject_label"], row["object_id"], row["mapping_tool"]) for row in rows_of(answers)]
     model = f"openai:m@{server.url}/v1"
     assert sorted(found) == [("mug", "soma:Bowl", model), ("mug", "soma:Bowl", model), ("qzxv", "soma:Knife", model)]

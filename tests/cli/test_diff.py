@@ -158,8 +158,8 @@ def test_carries_decisions_over_to_renamed_objects(run: Run, room: Path, edited:
 @pytest.mark.parametrize(
     ("options", "message"),
     [
-        (["--previous", "old.ttl"], "--previous needs decisions of a person; name their file with --decisions"),
-        (["--unplaced", "lost.csv"], "--unplaced and --carried need the earlier scene; name it with --previous OLD"),
+        (["--previous", "old.ttl"], "--previous needs a person's decisions; give their file with --decisions"),
+        (["--unplaced", "lost.csv"], "--unplaced and --carried need the earlier scene; give it with --previous OLD"),
     ],
 )
 def test_previous_needs_decisions(run: Run, room: Path, options: list[str], message: str) -> None:

@@ -147,7 +147,7 @@ class TestPrice:
             done = run("ground", kitchen, "--grounder", model, "--budget", "1")
             assert server.received == []
         assert (done.code, done.out) == (2, "")
-        assert "its price is not known; expected one for --budget, state it with --price INPUT/OUTPUT" in done.err
+        assert "has no list price, which --budget requires; give one with --price INPUT/OUTPUT" in done.err
 
     def test_dry_run_estimates_the_list_price(self, run: Run, kitchen: Path):
         done = run("ground", kitchen, "--grounder", "llm-A:google:gemini-2.5-flash", "--dry-run")
@@ -440,7 +440,7 @@ def test_ground_fails_if_all_prompts_fail_and_keeps_the_mapping(run: Run, kitche
     last = done.err.splitlines()[-1]
     assert last.startswith(f"usd2kg: llm-B:openai:x@{server.url}/v1: {REFUSED}"), last
     assert "status 401" in last
-    assert last.endswith("the classes that were written are without it")
+    assert last.endswith("the output contains no classes from the model")
     assert set(classes(Path("m.csv").read_text()).values()) == {""}
 
 

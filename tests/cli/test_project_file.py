@@ -249,7 +249,7 @@ class TestWhere:
         file = write(line, Path("download"))
         (file.parent / "a.usd").touch()
         with pytest.raises(
-            Usd2kgError, match=r"download.*neither in the current folder nor above it.*--no-project-file"
+            Usd2kgError, match=r"download.*not in the current folder or a parent of it.*--no-project-file"
         ):
             arguments("build", "download/a.usd")
 

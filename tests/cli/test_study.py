@@ -195,21 +195,21 @@ def test_cascades_of_a_matrix_are_measured_and_drawn(run, study: Study, room: Pa
 @pytest.mark.parametrize(
     ("arguments", "message"),
     [
-        (("m.toml", "--study"), "m.toml: --study has a matrix of its own; leave out one of the two"),
-        ((), "no matrix is named; expected MATRIX, a TOML file, or --study"),
-        (("m.toml", "--model", "openai:m"), "--model openai:m: is for --study; a matrix file states it itself"),
-        (("m.toml", "--gold", "g.csv"), "--gold g.csv: is for --study; a matrix file states it itself"),
+        (("m.toml", "--study"), "m.toml: --study has its own matrix; leave out one of the two"),
+        ((), "no matrix is given; expected MATRIX, a TOML file, or --study"),
+        (("m.toml", "--model", "openai:m"), "--model openai:m: requires --study; a matrix file contains this setting"),
+        (("m.toml", "--gold", "g.csv"), "--gold g.csv: requires --study; a matrix file contains this setting"),
         (("--study", "--scene", "{room}"), "has no gold labels; label it with usd2kg eval annotate"),
-        (("--study", "--gold", "{gold}"), "--gold has no scene; name it with --scene or --kitchen-set"),
+        (("--study", "--gold", "{gold}"), "--gold needs a scene; give it with --scene or --kitchen-set"),
         (("--study", "--scene", "none.usda", "--gold", "{gold}"), "none.usda: no such file; correct the path"),
         (("--study", "--scene", "{room}", "--gold", "none.csv"), "none.csv: no such file; correct the path"),
         (
             ("--study", "--scene", "{room}", "--gold", "{gold}", "--kitchen-set", "."),
-            "--scene and --kitchen-set name two scenes; leave out one of them",
+            "--scene and --kitchen-set exclude each other; leave out one of them",
         ),
         (("--study", "--kitchen-set", ".", "--gold", "{gold}"), "no Kitchen_set.usd in it"),
         (("--study", "--budget", "1"), "--budget needs a language model; name one with --model MODEL"),
-        (("--study", "--model", "openai:m", "--budget", "1"), "its price is not known; expected one for --budget"),
+        (("--study", "--model", "openai:m", "--budget", "1"), "has no list price, which --budget requires"),
         (("--study", "--model", "mistral:m"), "model 'mistral:m': no known provider and name"),
     ],
 )

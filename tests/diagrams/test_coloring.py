@@ -230,7 +230,7 @@ def test_decisions_change_the_class(kitchen, tmp_path):
             "concept, confidence, room, support or answer",
         ),
         (["--color-by", "answer"], OutputError, "needs a question"),
-        (["--color-by", "room", "--ask", "where is the mug?"], OutputError, "shows no answer"),
+        (["--color-by", "room", "--ask", "where is the mug?"], OutputError, "does not show the answer"),
         (["/Mug", "--color-by", "room", "--context"], OutputError, "without --color-by"),
         (["--decisions", "d.csv"], OutputError, "choose another --color-by"),
         (["--ask", "what is on the xylophone?"], GraphError, "xylophone"),

@@ -2,7 +2,7 @@
 
 Exit codes: 0 success; 1 `validate`, `label lint` or `ontology check` has findings, `diff` has differences, `doctor`
 misses a package, or `batch` could not build a scene; 2 wrong usage, or an input or output cannot be used; 130 `ground`
-or `batch` was interrupted and keeps what is finished.
+or `batch` was interrupted and keeps the finished results.
 """
 
 import io
@@ -49,10 +49,10 @@ from usd2kg.tracing import set_up_tracing
 __all__ = ["app", "main"]
 
 _EXHAUSTED = {
-    MemoryError: "the input needs more memory than there is; try a part of it (--include, --objects)",
+    MemoryError: "not enough memory for this input; try a part of it (--include, --objects)",
     RecursionError: "the input is nested too deeply to be read; flatten it (--verbose shows where)",
 }
-"""Exception → message; whatever the input is, the user gets one line."""
+"""Exception → message, so that the user gets one line for any input."""
 
 app = typer.Typer(
     name="usd2kg",
@@ -114,7 +114,7 @@ def _options(
         Option(
             "--log-format",
             metavar="text|json",
-            help="Form of the messages on stderr: text, or json, one object a line with the time of each step. "
+            help="Format of the messages on stderr: text, or json, one object per line with the time of each step. "
             "Accepted anywhere.",
         ),
     ] = "text",
@@ -127,7 +127,7 @@ def _options(
 
 
 def main() -> None:
-    """Run the command line; a `Usd2kgError`, or an end of memory or stack, becomes one line and exit code 2."""
+    """Run the command line; a `Usd2kgError`, or running out of memory or stack, becomes one line and exit code 2."""
     for stream in (sys.stdout, sys.stderr):
         if isinstance(stream, io.TextIOWrapper):
             # Escape characters that the terminal's encoding lacks instead of failing.
@@ -181,7 +181,7 @@ def _with_project_options(global_options: list[str], arguments: list[str]) -> tu
 
 
 def _set_up_output(global_options: Sequence[str]) -> None:
-    """Choose colours and the form of messages before the first message."""
+    """Choose colours and the message format before the first message."""
     if "--log-format=json" in global_options:
         set_up_logging(logging.INFO, "json")
     if "--no-color" in global_options:

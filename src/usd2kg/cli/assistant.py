@@ -37,13 +37,13 @@ def ask_command(
     ] = None,
     json: JsonOutput = False,
 ) -> None:
-    """Answer a question in people's words: 'what is on the table?', 'how heavy is the fridge?'."""
+    """Answer a question in plain English: 'what is on the table?', 'how heavy is the fridge?'."""
     text = " ".join(words)
     if model is None:
         _ask_scenes(graph, scene, text, since, json)
         return
     if since is not None:
-        raise GraphError("ask: --since is for questions without --model; leave one of them out")
+        raise GraphError("ask: --since cannot be combined with --model; leave one of them out")
     from usd2kg.progress import show_steps  # noqa: PLC0415
     from usd2kg.stores import open_graph  # noqa: PLC0415 - loads OpenUSD, too slow for --help
 
@@ -123,7 +123,7 @@ def mcp_command(
 
 
 def _object_renderer(graph: "GraphStore", stage: Path) -> Callable[[str], bytes]:
-    """Return a function from the name of an object to a PNG of it in context; of several, the first is drawn."""
+    """Return a function that renders the first object with a given name in context, as a PNG."""
     from usd2kg.render import Renderer  # noqa: PLC0415
 
     renderer = Renderer(stage)

@@ -34,13 +34,13 @@ __all__ = ["batch_command"]
 
 MANIFEST = "manifest.jsonl"
 _SUMMARY = ("prims", "objects", "classes", "status", "confidence", "relations", "triples", "diagnostics")
-"""What a record keeps of the summary of a build."""
+"""Keys of the build summary that a record keeps."""
 _LOCK_WAIT_S = 2.0
 
 
 @dataclass(frozen=True)
 class _BuildTask:
-    """What each worker does; it is sent to them."""
+    """The task of each worker, sent to the worker processes."""
 
     steps: SceneBuild
     ontology: Path | None
@@ -67,7 +67,7 @@ class _BuildTask:
             try:
                 job.target.parent.mkdir(parents=True, exist_ok=True)
             except OSError as error:
-                raise OutputError(f"{job.target.parent}: cannot be made ({error.strerror})") from error
+                raise OutputError(f"{job.target.parent}: cannot be created ({error.strerror})") from error
             write_graph(graph, job.target)
             session.check_completions()
         summary = summarize_build(result, "", time.perf_counter() - start)
@@ -86,7 +86,9 @@ def batch_command(
     ],
     output: Annotated[
         Path,
-        Option("--output", "-o", help="Folder for the graphs, in folders as those of the scenes, and the manifest."),
+        Option(
+            "--output", "-o", help="Folder for the manifest and the graphs, in subfolders like those of the scenes."
+        ),
     ],
     grounding: GroundingOptions,
     reading: StageOptions,
@@ -96,7 +98,7 @@ def batch_command(
     base: Annotated[
         str,
         Option(
-            "--base", help="Beginning of the namespaces of individuals, ending in / or #; the scene's name follows."
+            "--base", help="Prefix of the namespaces of individuals, ending in / or #; the scene's name is appended."
         ),
     ] = "https://example.org/",
     profile: Profile = "auto",
@@ -104,34 +106,37 @@ def batch_command(
     file_format: Annotated[
         str,
         Option(
-            "--format", help="Ending of the graphs: ttl, nt, trig, nq, rdf, owl, jsonld, ofn or graphml, also with .gz."
+            "--format",
+            help="File extension of the graphs: ttl, nt, trig, nq, rdf, owl, jsonld, ofn or graphml, also with .gz.",
         ),
     ] = "ttl",
     exclude_scenes: Annotated[
         list[str] | None,
-        Option("--exclude-scenes", metavar="PATTERN", help="Scenes to leave out, such as '**/assets/**'. Repeatable."),
+        Option("--exclude-scenes", metavar="PATTERN", help="Scenes to exclude, such as '**/assets/**'. Repeatable."),
     ] = None,
     workers: Annotated[
-        int | None, Option("--workers", min=1, max=1024, help="Scenes built at the same time; default: one a core.")
+        int | None,
+        Option("--workers", min=1, max=1024, help="Scenes built at the same time; default: one per CPU core."),
     ] = None,
     time_limit: Annotated[
         float,
         Option("--time-limit", min=1, help="Seconds after which a scene is stopped, tried once more, and reported."),
     ] = 600.0,
     memory_limit: Annotated[
-        int, Option("--memory-limit", min=256, help="MiB of memory at which a scene is stopped likewise; on Linux.")
+        int,
+        Option("--memory-limit", min=256, help="MiB of memory after which a scene is stopped likewise; Linux only."),
     ] = 8192,
-    again: Annotated[bool, Option("--again", help="Build finished scenes again, too.")] = False,
+    again: Annotated[bool, Option("--again", help="Rebuild finished scenes, too.")] = False,
     on_ray: Annotated[
         bool,
-        Option("--ray", help="Run on the Ray cluster that RAY_ADDRESS names, or on a local one (extra ray)."),
+        Option("--ray", help="Run on the Ray cluster at RAY_ADDRESS, or on a local one (extra ray)."),
     ] = False,
     store: OptionalStore = None,
     store_update: UpdateAddress = None,
     store_data: DataAddress = None,
     json: JsonOutput = False,
 ) -> None:
-    """Build the graphs of many scenes in parallel; what is finished survives a crash, and is not built again."""
+    """Build the graphs of many scenes in parallel; finished graphs survive a crash and are not rebuilt."""
     # Loads OpenUSD, too slow for --help.
     from usd2kg.batch import Manifest, PoolLimits, find_scene_files, plan_batch, run_batch  # noqa: PLC0415
     from usd2kg.batch.folder import open_batch_folder  # noqa: PLC0415
@@ -157,12 +162,12 @@ def batch_command(
     limits = PoolLimits(workers or _count_cores(), time_limit, memory_limit)
     opened = None if store is None else open_for_loading(store, store_update, store_data)
     start = time.perf_counter()
-    # As Ctrl+C: the workers are stopped, and what is finished is kept.
+    # Like Ctrl+C: the workers are stopped, and finished graphs are kept.
     signal.signal(signal.SIGTERM, signal.default_int_handler)
     with open_batch_folder(output, _LOCK_WAIT_S), Manifest(output / MANIFEST) as manifest:
         plan = plan_batch(scenes, output, manifest, options=options, ending=ending, base=base, is_again=again)
         if plan.finished:
-            notify(f"{count_noun(len(plan.finished), 'scene')} of {len(scenes)} finished before")
+            notify(f"{count_noun(len(plan.finished), 'scene')} of {len(scenes)} already finished")
         built: list[Built] = []
         outcomes = _outcomes(task, plan.jobs, limits, on_ray=on_ray)
         with BatchProgress(plan.jobs, sum(1 for _ in plan.finished)) as progress, closing(outcomes):
@@ -171,7 +176,7 @@ def batch_command(
                     built.append(one)
                     progress.show(one)
             except KeyboardInterrupt:
-                notify(f"stopped after {count_noun(len(built), 'scene')}; the same command goes on from there")
+                notify(f"stopped after {count_noun(len(built), 'scene')}; the same command resumes from there")
                 raise typer.Exit(130) from None
             except ChildProcessError as error:
                 raise GroundingError(f"{error}; --verbose shows why, with one worker") from error
@@ -206,7 +211,7 @@ def _outcomes(task: _BuildTask, jobs: "Iterable[Job]", limits: "PoolLimits", *, 
 
 
 def _loader(store: "SceneStore | None") -> "Callable[[Job], None]":
-    """Return what loads the graph of a job into a store, as a named graph; nothing without a store."""
+    """Return a function that loads the graph of a job into a store; it does nothing without a store."""
     from usd2kg.stores import read_named_graph  # noqa: PLC0415
 
     def load(job: "Job") -> None:
@@ -217,7 +222,7 @@ def _loader(store: "SceneStore | None") -> "Callable[[Job], None]":
 
 
 def _hash_options(task: _BuildTask, tboxes: "Iterable[TBox]", ending: str, base: str) -> str:
-    """Return a hash of what the graphs depend on apart from the scenes: options, their files, ontology and version."""
+    """Return a hash of all inputs of the graphs other than the scenes: options, their files, ontology and version."""
     from importlib.metadata import version  # noqa: PLC0415
 
     steps = task.steps
@@ -239,10 +244,10 @@ def _count_cores() -> int:
 
 def _summary_text(summary: Mapping[str, Any]) -> str:
     failed, seconds = summary["failed"], summary["seconds"]
-    rate = f", {60 * summary['built'] / seconds:,.0f} scenes a minute" if summary["built"] else ""
+    rate = f", {60 * summary['built'] / seconds:,.0f} scenes per minute" if summary["built"] else ""
     parts = [f"{count_noun(summary['scenes'], 'scene')}: {summary['built']} built in {seconds:.1f} s{rate}"]
     if summary["finished_before"]:
-        parts.append(f"{summary['finished_before']} finished before")
+        parts.append(f"{summary['finished_before']} already finished")
     if failed:
         parts.append(f"{len(failed)} failed")
     return (

@@ -1,4 +1,4 @@
-"""The progress of a batch on stderr: a bar on a terminal, now and then a line elsewhere."""
+"""The progress of a batch on stderr: a bar on a terminal, otherwise periodic lines."""
 
 import sys
 import time
@@ -16,16 +16,16 @@ if TYPE_CHECKING:
 __all__ = ["BatchProgress"]
 
 _LINE_S = 30.0
-"""Seconds between two lines where there is no terminal."""
+"""Seconds between two lines without a terminal."""
 _SCENE_WEIGHT = 300_000
-"""Bytes of a scene file that take as long as what every scene takes."""
+"""Scene file size whose processing time equals the fixed cost of a scene, in bytes."""
 
 
 class BatchProgress:
-    """Shows how many scenes are done, and how long the rest takes by its size."""
+    """Shows the number of finished scenes, and the remaining time estimated from file sizes."""
 
     def __init__(self, jobs: "Sequence[Job]", before: int) -> None:
-        """Create it; `before` is the number of scenes that were finished before."""
+        """Create a progress display; `before` is the number of scenes that earlier runs finished."""
         self._weights = {job.name: _weight(job) for job in jobs}
         self._total = sum(self._weights.values())
         self._count = len(jobs)
@@ -51,7 +51,7 @@ class BatchProgress:
             self._bar.stop()
 
     def show(self, built: "Built") -> None:
-        """Show that a scene has ended; why it failed is a line that stays."""
+        """Show that a scene is finished; a failure is printed on a permanent line."""
         self._done += 1
         self._passed += self._weights[built.job.name]
         if built.record.error:

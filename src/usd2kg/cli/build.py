@@ -90,7 +90,7 @@ def build_command(
                 _save(result, merge_imports, target, opened)
                 session.report(result.grounding, result.tbox)
         except Usd2kgError as error:
-            # Of several scenes, the others are still built.
+            # Continue with the other scenes.
             if len(scenes) == 1:
                 raise
             notify(f"usd2kg: {error}")
@@ -110,7 +110,7 @@ def _choose_targets(scenes: list[Path], output: Path | None) -> list[Path]:
 
     Raises:
         OutputError: a file cannot be written, or two scenes have the same one.
-        GraphError: the ending of a file names no format.
+        GraphError: the extension of a file names no format.
     """
     from usd2kg.graph import graph_format  # noqa: PLC0415
 
@@ -135,8 +135,7 @@ def _choose_targets(scenes: list[Path], output: Path | None) -> list[Path]:
 def _save(result: "BuildResult", is_merged: bool, target: Path | None, store: "SceneStore | None") -> None:
     """Write a graph to a file, to a store, or to both.
 
-    Merged imports become part of the graph in a file. A store keeps them in a graph of their own, which its scenes
-    share.
+    Merged imports become part of the graph in a file. In a store, they are a separate graph that the scenes share.
     """
     from usd2kg.graph import merge_imports, write_graph  # noqa: PLC0415
     from usd2kg.ontology import read_closure  # noqa: PLC0415

@@ -15,7 +15,7 @@ _CONFIDENCE_BANDS = ((0.8, "0.8 and more"), (0.5, "0.5 to 0.8"), (0.0, "below 0.
 
 
 def summarize_build(result: "BuildResult", output: str, seconds: float) -> dict[str, Any]:
-    """Return the counts of a build as JSON data; `output` names what was written, after `seconds`."""
+    """Return the counts of a build as JSON data; `output` names the destination, `seconds` the duration."""
     from usd2kg.relations import ALL_KINDS  # noqa: PLC0415 - loads OpenUSD, too slow for --help
 
     predictions = result.grounding.predictions

@@ -25,7 +25,7 @@ def carry_over_decisions(
 ) -> "tuple[Mapping[str, ClassIRI | Decision], Mapping[str, DecisionOrigin]]":
     """Return the decisions for a scene, and the origin of each that was made for another prim path.
 
-    Prints what was carried over to stderr, and writes the files of the options.
+    Prints the carried decisions to stderr, and writes the files of the options.
     """
     if options.previous is None:
         return decisions, {}

@@ -1,4 +1,4 @@
-"""usd2kg completions: export and import of cached completions, and the batch jobs that bring more."""
+"""usd2kg completions: export and import of cached completions, and open batch jobs."""
 
 from datetime import datetime
 from pathlib import Path
@@ -21,7 +21,8 @@ app = typer.Typer(no_args_is_help=True, rich_markup_mode=None, help="Share the c
 @app.command("export")
 def export_completions(
     recording: Annotated[
-        Path, Argument(help="JSON Lines file to write, a prompt and completion a line; compressed if it ends in .gz.")
+        Path,
+        Argument(help="JSON Lines file to write, one prompt and completion per line; compressed if it ends in .gz."),
     ],
     completions: CompletionCacheFile = None,
 ) -> None:
@@ -46,7 +47,7 @@ def import_completions(
 
 @app.command("jobs")
 def list_jobs(completions: CompletionCacheFile = None, json: JsonOutput = False) -> None:
-    """List the batch jobs whose answers are not fetched yet. The command that submitted a job fetches them."""
+    """List the batch jobs whose answers are not fetched yet; the command that submitted a job fetches them."""
     from usd2kg.grounding.llm.batch_jobs.journal import JobJournal  # noqa: PLC0415
     from usd2kg.grounding.llm.cache import CompletionCache, default_cache_path  # noqa: PLC0415
 
@@ -61,9 +62,7 @@ def list_jobs(completions: CompletionCacheFile = None, json: JsonOutput = False)
             ]
         )
         return
-    rows = [
-        (job.id or "not known yet", job.model, str(len(job.keys)), when) for job, when in zip(jobs, times, strict=True)
-    ]
+    rows = [(job.id or "unknown", job.model, str(len(job.keys)), when) for job, when in zip(jobs, times, strict=True)]
     emit(format_table(("job", "model", "prompts", "submitted"), rows))
 
 
@@ -72,9 +71,9 @@ def forget_job(
     job: Annotated[str, Argument(metavar="JOB", help="Id of a batch job, as listed by `completions jobs`.")],
     completions: CompletionCacheFile = None,
 ) -> None:
-    """Give up the answers of a batch job, such as one whose answers the service has deleted.
+    """Discard a batch job, such as one whose answers the service has deleted.
 
-    The next run submits its prompts again, which is paid again. The job itself goes on at the service.
+    The next run submits its prompts again and pays for them again. The job keeps running at the service.
     """
     from usd2kg.grounding.llm.batch_jobs.journal import JobJournal  # noqa: PLC0415
     from usd2kg.grounding.llm.cache import CompletionCache, default_cache_path  # noqa: PLC0415
@@ -83,6 +82,6 @@ def forget_job(
         journal = JobJournal(cache)
         found = next((one for one in journal.open_jobs() if one.id == job), None)
         if found is None:
-            raise GroundingError(f"batch job {job!r} is not open; expected one of usd2kg completions jobs")
+            raise GroundingError(f"batch job {job!r} is not open; expected one listed by usd2kg completions jobs")
         journal.close(found, {})
-    notify(f"batch job {job} is forgotten, with {count_noun(len(found.keys), 'prompt')}")
+    notify(f"batch job {job} discarded, with {count_noun(len(found.keys), 'prompt')}")

@@ -31,7 +31,7 @@ _FORMATS = ("text", "json", "sparql")
 class _ToleranceOptions(OptionBundle):
     """Differences up to which objects count as unchanged."""
 
-    moved: Annotated[float, Option("--moved", help="Metres; an object farther from its old place has moved.")] = 0.01
+    moved: Annotated[float, Option("--moved", help="Metres; an object displaced by more has moved.")] = 0.01
     turned: Annotated[float, Option("--turned", help="Degrees; an object turned by more has turned.")] = 1.0
     resized: Annotated[
         float, Option("--resized", help="Metres; an object with a side that differs by more is resized.")
@@ -83,7 +83,7 @@ def diff_command(
         str | None,
         Option(
             "--base",
-            help="Namespace of the individuals of a stage; default: that of the graph it is compared with, else "
+            help="Namespace of the individuals of a stage; default: that of the graph it is compared with, otherwise "
             "derived from the name of OLD.",
         ),
     ] = None,
@@ -113,7 +113,7 @@ def diff_command(
         is_same = _write_update(before, after, title, graph, output)
     else:
         if any(thing.classes for thing in before.objects) != any(thing.classes for thing in after.objects):
-            notify("classes: only one version has classes, so they are not compared; relations depend on them, too")
+            notify("classes: only one version has classes, so they are not compared; relations also depend on classes")
         changes = compare_objects(before.objects, after.objects, limits, kinds)
         is_same = changes.is_empty
         if file_format == "json":
@@ -142,7 +142,7 @@ def _parse_kinds(text: str) -> frozenset[str]:
     kinds = frozenset(part.strip() for part in text.split(",") if part.strip())
     unknown = sorted(kinds - frozenset(ALL_KINDS))
     if unknown or not kinds:
-        found = f"kind {unknown[0]!r} is unknown" if unknown else "no kind is named"
+        found = f"kind {unknown[0]!r} is unknown" if unknown else "no kind is given"
         raise GraphError(f"--relation-kinds: {found}; expected a list of {', '.join(ALL_KINDS)}, or all, or none")
     return kinds
 

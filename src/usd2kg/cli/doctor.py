@@ -1,4 +1,4 @@
-"""usd2kg doctor: what is installed and configured here, for a bug report or a first look."""
+"""usd2kg doctor: the installation and its configuration, for a bug report or a first check."""
 
 import os
 import platform
@@ -29,9 +29,9 @@ class _Package(NamedTuple):
 
     name: str
     extra: str
-    """The extra that installs it; empty if usd2kg needs it."""
+    """The extra that installs the package; empty for required packages."""
     version: str | None
-    """None if it is not installed."""
+    """None if the package is not installed."""
 
 
 def doctor_command(json: JsonOutput = False) -> None:

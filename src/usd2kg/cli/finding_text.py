@@ -25,7 +25,7 @@ def findings_text(findings: "Sequence[Finding]", checked: int, noun: str, *, is_
     Args:
         findings: the findings, sorted by rule.
         checked: number of items that were checked.
-        noun: what the items are, in the singular.
+        noun: noun for an item, in the singular.
         is_complete: whether all findings are shown, or `FINDINGS_PER_RULE` of each rule.
     """
     limit = None if is_complete else FINDINGS_PER_RULE

@@ -34,7 +34,7 @@ def draw_command(
     ] = None,
     scene: SceneName = None,
 ) -> None:
-    """Draw which objects are on and in others, of a whole room or around one object, as SVG or PNG."""
+    """Draw a diagram of the objects on and in each other, for a whole room or around one object, as SVG or PNG."""
     # The stem of a file or folder, or the last part of an IRI or URL.
     name = Path((scene or graph).rstrip("/#")).stem
     target = output or Path(f"{name}.svg")

@@ -45,7 +45,7 @@ def ground_command(
         Option(
             "--format",
             help="csv, json, or sssom, which --license and --mapping-date describe; default: by the file "
-            "ending (.json, .tsv), else csv.",
+            "extension (.json, .tsv), otherwise csv.",
         ),
     ] = None,
     base: BaseIri = None,
@@ -116,7 +116,7 @@ def _print_dry_run(
     abbreviated_length: int,
     output: Path | None,
 ) -> None:
-    """Print the prompts that the model would get for the prims in `paths`, or for all objects."""
+    """Print the prompts that would be sent to the model for the prims in `paths`, or for all objects."""
     from usd2kg.cli.model_report import print_prompts  # noqa: PLC0415
     from usd2kg.grounding import view_objects  # noqa: PLC0415
 

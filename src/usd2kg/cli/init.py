@@ -22,7 +22,7 @@ __all__ = ["make_init_command"]
 
 _INTRODUCTION = """\
 # Options of usd2kg for the scenes in this folder and below. Remove the # before an option to set it.
-# A key is the name of an option, for every command that has it; [build] and the like set one command.
+# A key is the name of an option and applies to every command that has it; a table such as [build] sets one command.
 # Relative paths start at this folder. Options on the command line take precedence.
 """
 _EXAMPLES = {
@@ -82,7 +82,7 @@ def _content(app: typer.Typer) -> str:
 
 
 def _entry(option: CommandOption) -> str:
-    # Where an option stands on the command line is of no interest here.
+    # The position of an option on the command line is irrelevant here.
     lines = textwrap.wrap(option.help.removesuffix(" Accepted anywhere."), _WIDTH - 2, break_on_hyphens=False)
     example = _EXAMPLES[option.key].format(option.key)
     return "".join(f"\n# {line}" for line in lines) + f"\n# {option.key} = {example}\n"

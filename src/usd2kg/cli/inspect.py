@@ -55,7 +55,7 @@ def inspect_command(
     ] = False,
     json: JsonOutput = False,
 ) -> None:
-    """List the objects of a scene with their evidence, counts of what was left out and why, and diagnostics."""
+    """List the objects of a scene with their evidence, counts of excluded prims by reason, and diagnostics."""
     from usd2kg.progress import show_steps  # noqa: PLC0415
     from usd2kg.scene import describe_shapes, read_scene  # noqa: PLC0415 - loads OpenUSD, too slow for --help
 
@@ -83,7 +83,7 @@ def _explain(source: Path, path: str, options: "ReadOptions", *, is_json: bool) 
     try:
         scene = read_scene(source, options=options)
     except SceneError:
-        # A stage without objects still has a reason for each prim.
+        # Even on a stage without objects, each prim has a reason.
         scene = None
     obj = scene.by_path.get(path) if scene else None
     # An instance of a point instancer, /Shelf/I[3], is not a prim: its instancer was selected.
@@ -98,7 +98,7 @@ def _explain(source: Path, path: str, options: "ReadOptions", *, is_json: bool) 
     try:
         shapes = describe_shapes(source, scene, [path])
     except SceneError as error:
-        # scipy is optional; everything else is known without it.
+        # Only the shape needs scipy, which is optional.
         shapes, missing = None, [("form", str(error))]
     joints = [joint for joint in scene.joints if path in jointed_objects(joint, scene)]
     if is_json:
@@ -190,7 +190,7 @@ def _shape_cells(shape: "ShapeDescriptors | None") -> list[str | None]:
 
 
 def _counts(scene: "Scene") -> Iterator[str]:
-    """Yield counts of labels, joints, variants and texts, which the table lacks."""
+    """Yield counts of labels, joints, variants and texts, which are not in the table."""
     # A label is read for its prim and, if inherited, for each object below it.
     labels = {_label_key(label): label for obj in scene.objects for group in obj.labels for label in group}
     if labels:
@@ -214,12 +214,12 @@ def _tally(counts: Counter[Any]) -> str:
 
 
 def _diagnostic_rows(notes: "Iterable[Diagnostic]") -> Iterator[tuple[str, str | None, str]]:
-    """Yield code, place and message of diagnostics; of similar ones, the first few and a count of the others."""
+    """Yield code, location and message of diagnostics; groups of similar ones are truncated with a count."""
     similar: dict[tuple[str, str], list[Diagnostic]] = {}
     for note in notes:
         similar.setdefault((note.code, _VARIABLE_PART.sub("…", note.message)), []).append(note)
     for (code, _), group in similar.items():
-        # A line that replaces a single diagnostic would save no space.
+        # Do not replace a single diagnostic by a line of the same length.
         shown = len(group) if len(group) == SIMILAR_DIAGNOSTICS + 1 else SIMILAR_DIAGNOSTICS
         yield from ((note.code, note.prim_path or note.layer, note.message) for note in group[:shown])
         if len(group) > shown:

@@ -168,7 +168,7 @@ def _report_lines(report: "LabelReport") -> Iterator[str]:
 
 
 def _reason_kind(reason: str) -> str:
-    """Return a reason without the labels or instance it names after a colon, to group similar ones."""
+    """Return a reason without the labels or instance named after its colon, to group similar reasons."""
     return reason if reason.startswith("the run has") else reason.partition(": ")[0]
 
 

@@ -1,4 +1,4 @@
-"""usd2kg licences: where the data of the package comes from, and under which licence."""
+"""usd2kg licences: origin and licence of the data in the package."""
 
 from importlib.resources import files
 

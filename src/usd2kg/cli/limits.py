@@ -1,4 +1,4 @@
-"""Limits on how much the commands show."""
+"""Limits on the output of the commands."""
 
 __all__ = [
     "CHANGES_PER_KIND",
@@ -18,9 +18,9 @@ FINDINGS_PER_RULE = 20
 CHANGES_PER_KIND = 20
 """Changes of one kind that `diff` shows without --all."""
 MOVES_TO_GROUP = 5
-"""`diff` shows this many objects with the same displacement, or more, in one line."""
+"""Smallest number of objects with the same displacement that `diff` shows on one line."""
 SIMILAR_DIAGNOSTICS = 3
-"""Diagnostics with the same message that `inspect` shows."""
+"""Diagnostics of one kind that `inspect` shows."""
 NAMES_PER_CELL = 6
 """Names of materials or parts in a cell of the table of `inspect`."""
 PATHS_PER_REASON = 3
@@ -30,6 +30,6 @@ SUGGESTIONS = 10
 DEMO_ROWS = 12
 """Rows of each answer that `demo` shows."""
 NARROWEST_COLUMN = 12
-"""Characters to which a column of a table that is wider than the terminal is cut at most."""
+"""Smallest width to which a column is cut if the table is wider than the terminal, in characters."""
 READABLE_COLUMN = 24
-"""Characters to which a column is cut at most before columns that a table can do without are left out."""
+"""Smallest width to which a column is cut before dispensable columns are dropped, in characters."""

@@ -24,7 +24,7 @@ class _JsonFormatter(logging.Formatter):
 
 
 class _StderrHandler(logging.StreamHandler[TextIO]):
-    """Writes to what is stderr at the time of the record: above a progress bar while there is one."""
+    """Writes to the current `sys.stderr`, which prints above an active progress bar."""
 
     def __init__(self) -> None:
         logging.Handler.__init__(self)
@@ -48,7 +48,7 @@ def set_up_logging(level: int, log_format: str) -> None:
 
 
 def is_json_log() -> bool:
-    """Return whether log records are JSON, and so messages have to be."""
+    """Return whether log records, and therefore messages, are JSON."""
     return any(isinstance(handler.formatter, _JsonFormatter) for handler in logging.root.handlers)
 
 

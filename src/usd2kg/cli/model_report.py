@@ -37,7 +37,7 @@ def print_prompts(batches: "list[Batch]", object_count: int, tariff: "Tariff | N
 
 
 def print_requests(requests: "Sequence[Request]", output: Path | None) -> None:
-    """Print prompts; the instructions that successive prompts share are printed once."""
+    """Print prompts; instructions shared by successive prompts are printed once."""
     emit(replace_controls("\n".join(_prompt_texts(requests))), output)
 
 

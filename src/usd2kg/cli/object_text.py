@@ -22,7 +22,7 @@ __all__ = [
 ]
 
 _MIN_OPENNESS = 0.005
-"""Openness below which an object is not shown as a vessel; its capacity is then only gaps between its parts."""
+"""Openness below which an object is not shown as a vessel: its capacity consists only of gaps between its parts."""
 _UNROTATED = 1 - 1e-9
 """Real part of a unit quaternion from which an orientation counts as the identity."""
 
@@ -30,7 +30,7 @@ Rows = Iterator[tuple[str, str]]
 
 
 def object_rows(obj: "SceneObject") -> Rows:
-    """Yield (property, value) for all that the stage states about an object."""
+    """Yield (property, value) for all authored and computed properties of an object."""
     yield "name", obj.name
     yield from _rows("display name", [obj.display_name])
     yield "words", ", ".join(obj.words) or "none in the name"
@@ -171,7 +171,7 @@ def shape_rows(shape: "ShapeDescriptors | None") -> Rows:
 
 
 def capacity_text(shape: "ShapeDescriptors") -> str | None:
-    """Return how much an open vessel holds as it stands, in litres; None for other objects."""
+    """Return the capacity of an open vessel in its current orientation, in litres; None for other objects."""
     return litres_text(shape.capacity_m3) if shape.openness >= _MIN_OPENNESS else None
 
 

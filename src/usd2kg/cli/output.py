@@ -69,7 +69,7 @@ def emit(text: str, path: Path | None = None) -> None:
         sys.stdout.write(text)
         sys.stdout.flush()
     except BrokenPipeError:
-        # The reader closed the pipe (`| head`), which is no error. Python would flush the closed pipe at exit.
+        # The reader closed the pipe (`| head`), which is not an error. Python would flush the closed pipe at exit.
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
         sys.exit(0)
 
@@ -124,7 +124,7 @@ class Progress:
         self._report = report
 
     def update(self, done: int, count: int) -> None:
-        """Show the number of objects that are done, of `count`."""
+        """Show the number of completed objects out of `count`."""
         self.show(self.line(done, count))
 
     def show(self, text: str) -> None:

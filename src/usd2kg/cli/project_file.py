@@ -49,7 +49,7 @@ _QUALIFIED = {
     "ontology": ("color-by", "ask", "study"),
     "reviewer": ("decisions",),
 }
-"""Option → the options that it qualifies. A command that has some of these refuses the one without any of them:
+"""Option → the options that it qualifies. A command that has some of these rejects the option without any of them, so
 the file does not set it there."""
 
 _Command = tuple[str, ...]
@@ -60,7 +60,7 @@ class CommandOption(NamedTuple):
     """An option of a command."""
 
     names: tuple[str, ...]
-    """As on the command line, such as `--output` and `-o`."""
+    """Spellings on the command line, such as `--output` and `-o`."""
     help: str
     is_path: bool
     is_flag: bool
@@ -88,8 +88,8 @@ def read_project_options(
 ) -> ProjectOptions | None:
     """Return the options that the nearest `usd2kg.toml` sets for a call; None if there are none.
 
-    The file is looked for in the folder of the first argument that is a file or folder and no value of an option, else
-    in the current folder, and in the folders above.
+    The search starts in the folder of the first positional argument that is a file or folder, otherwise in the current
+    folder, and continues in the parent folders.
 
     Args:
         app: the command line.
@@ -123,7 +123,9 @@ def read_project_options(
         if qualified and not any(qualified):
             continue
         if not (is_trusted or option.key in ALLOWED_ANYWHERE or _is_offline_grounder(option, value)):
-            problem = "may write a file or contact a server, and the file is neither in the current folder nor above it"
+            problem = (
+                "may write a file or contact a server, and the file is not in the current folder or a parent of it"
+            )
             raise Usd2kgError(f"{file}: {option.key} {problem}; change to {file.parent}, or use --no-project-file")
         keys.append(option.key)
         (added_globally if option in shared else added).extend(_as_arguments(file, option, value))
@@ -206,7 +208,7 @@ def _positional(given: Sequence[str], options: Sequence[CommandOption]) -> Itera
 
 
 def _find_file(positional: Iterable[str]) -> Path | None:
-    # Unlike `Path.exists`, `os.path.exists` is False for what cannot be a path, such as a long question.
+    # Unlike `Path.exists`, `os.path.exists` is False for an invalid path, such as a long question.
     start = next((Path(one) for one in positional if os.path.exists(one)), Path()).absolute()  # noqa: PTH110
     folders = [start, *start.parents] if start.is_dir() else start.parents
     files = (folder / PROJECT_OPTIONS_FILE for folder in folders)

@@ -26,7 +26,7 @@ def query_command(
         list[str] | None,
         Argument(
             metavar="[QUESTION]...",
-            help="on X, in X, near X, above X, parts of X, where is X, or all of KIND: a class or a noun.",
+            help="on X, in X, near X, above X, parts of X, where is X, or all of KIND, a class or a noun.",
         ),
     ] = None,
     sparql: Annotated[
@@ -43,7 +43,7 @@ def query_command(
     ] = False,
     scene: SceneName = None,
     explain: Annotated[
-        bool, Option("--explain", help="Print the SPARQL behind the question, to edit and to run with --sparql.")
+        bool, Option("--explain", help="Print the SPARQL query behind the question, to edit and run with --sparql.")
     ] = False,
     json: JsonOutput = False,
 ) -> None:
@@ -98,10 +98,10 @@ def _run_sparql(place: str, scene: str | None, query: str) -> "Answer":
 def ask_scenes(place: str, scene: str | None, ask: "Callable[[GraphStore], Answer]") -> "Answer":
     """Return the answers about all scenes of a store, with a first column `scene`; or the answer about one graph.
 
-    Scenes that lack what is asked about add no rows.
+    Scenes without the object or class of the question add no rows.
 
     Raises:
-        GraphError: the question is wrong, or no scene has what it asks about.
+        GraphError: the question is invalid, or no scene has its object or class.
     """
     from usd2kg.query.answer import join_scenes  # noqa: PLC0415
     from usd2kg.stores import view_scenes  # noqa: PLC0415

@@ -18,7 +18,7 @@ from usd2kg.files import check_writable, stem_of, write_whole
 __all__ = ["render_command"]
 
 _GEOMETRY_CODES = frozenset({"mesh", "copies"})
-"""Codes of the diagnostics about geometry that the picture lacks."""
+"""Codes of the diagnostics about geometry missing from the picture."""
 
 
 @expand_bundles

@@ -22,10 +22,12 @@ def serve_command(
     port: Port = 7878,
     time_limit: QueryTimeLimit = 10.0,
     max_rows: Annotated[
-        int, Option("--max-rows", min=1, help="Rows or triples of an answer; more are cut off.")
+        int, Option("--max-rows", min=1, help="Maximum rows or triples of an answer; further ones are cut off.")
     ] = 10_000,
-    max_body: Annotated[int, Option("--max-body", min=1, help="Bytes of a request.")] = 1_048_576,
-    memory_limit: Annotated[int, Option("--memory-limit", min=16, help="MiB of memory for a query, on Linux.")] = 1024,
+    max_body: Annotated[int, Option("--max-body", min=1, help="Maximum size of a request in bytes.")] = 1_048_576,
+    memory_limit: Annotated[
+        int, Option("--memory-limit", min=16, help="Maximum memory of a query in MiB; Linux only.")
+    ] = 1024,
     workers: Annotated[int, Option("--workers", min=1, max=256, help="Queries that run in parallel.")] = 2,
     cors: Annotated[
         list[str] | None,
@@ -43,7 +45,7 @@ def serve_command(
     address = where.address(port)
     if not address.is_local:
         notify(f"{address.host}: the endpoint has no authentication; anyone who reaches this machine can query it")
-    # Service managers stop it with SIGTERM. As after Ctrl+C, the temporary copy of the graph has to be removed.
+    # Service managers stop the server with SIGTERM. As after Ctrl+C, the temporary copy of the graph must be removed.
     signal.signal(signal.SIGTERM, signal.default_int_handler)
     try:
         serve(graph, ServeOptions(address, cors or (), limits), notify)

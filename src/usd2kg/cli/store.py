@@ -37,7 +37,7 @@ def open_for_loading(place: str, update: str | None = None, data: str | None = N
 
 
 def load_graphs(store: "SceneStore", graphs: Sequence["NamedGraph"]) -> None:
-    """Load graphs into a store, each in place of the graph with the same IRI."""
+    """Load graphs into a store; each replaces the graph with the same IRI."""
     for graph in graphs:
         with span("load"):
             store.load(graph)
@@ -52,7 +52,7 @@ def check_graph_names(iris: Sequence[str]) -> None:
     """
     repeated = sorted({iri for iri in iris if iris.count(iri) > 1})
     if repeated:
-        raise OutputError(f"two graphs have the IRI <{repeated[0]}>, one would replace the other; build with --base")
+        raise OutputError(f"two graphs have the IRI <{repeated[0]}>, so one would replace the other; build with --base")
 
 
 @app.command("load")
@@ -73,7 +73,7 @@ def load_command(
     if scene is not None and len(graphs) > 1:
         raise StoreError(f"--scene names one graph, found {len(graphs)} files; load them one by one")
     with show_steps("parse", "load"):
-        # All files are read before the first is loaded, so that a broken one changes nothing.
+        # Read all files before loading the first, so that an invalid file changes nothing.
         named = [read_named_graph(path, scene) for path in graphs]
         check_graph_names([graph.iri for graph in named])
         load_graphs(open_for_loading(place, update, data), named)

@@ -92,7 +92,7 @@ def studio_command(
         if not no_browser:
             webbrowser.open(url)
 
-    # Service managers stop it with SIGTERM. As after Ctrl+C, the outputs are written first.
+    # Service managers stop the server with SIGTERM. As after Ctrl+C, the outputs are written first.
     signal.signal(signal.SIGTERM, signal.default_int_handler)
     try:
         serve_studio(folder, sources, where.address(port), reviewer=reviewer, compared=compare, when_ready=report)

@@ -1,4 +1,4 @@
-"""What the terminal can show: colours and its width."""
+"""Capabilities of the terminal: colours and width."""
 
 import os
 import shutil
@@ -22,7 +22,7 @@ class Style(Enum):
 
 
 def forbid_colors() -> None:
-    """Print no colours from now on."""
+    """Disable colours from now on."""
     global _forbidden  # noqa: PLW0603 - an option of the process
     _forbidden = True
 
@@ -39,7 +39,7 @@ def paint(text: str, style: Style, stream: TextIO) -> str:
 
 
 def terminal_width() -> int | None:
-    """Return the columns of the terminal that stdout is; None if it is a file or a pipe.
+    """Return the width in columns if stdout is a terminal; None if it is a file or a pipe.
 
     `COLUMNS` overrides the width.
     """

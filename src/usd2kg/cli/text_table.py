@@ -12,7 +12,7 @@ __all__ = ["fit_columns", "format_table"]
 
 _GAP = "  "
 _NUMBERS = re.compile(r"[-+\d.e×% ]*")
-"""Cells that would be wrong if they were shortened."""
+"""Numeric cells, which must not be shortened."""
 
 
 def format_table(
@@ -44,7 +44,7 @@ def format_table(
 def fit_columns(
     cells: list[list[str]], width: int, dispensable: Collection[str] = ()
 ) -> tuple[list[list[str]], list[str]]:
-    """Return a table, the header first, that fits a width if columns of `NARROWEST_COLUMN` do, and lines for below it.
+    """Return a table, header first, fitted to a width if `NARROWEST_COLUMN` allows it, and lines to print below it.
 
     Numbers are shortened only if the other columns cannot give enough space. Dispensable columns are left out from
     the right as long as others would be narrower than `READABLE_COLUMN`.

@@ -39,7 +39,7 @@ def validate_command(
     ] = None,
     elk_jars: Annotated[
         Path | None,
-        Option("--elk-jars", help="Folder with the jars of ELK; default: $USD2KG_ELK_JARS, else build/elk."),
+        Option("--elk-jars", help="Folder with the jars of ELK; default: $USD2KG_ELK_JARS, otherwise build/elk."),
     ] = None,
     reasoner_limit: Annotated[
         float, Option("--reasoner-limit", min=1, help="Seconds after which the reasoner is stopped.")
@@ -111,7 +111,7 @@ def _ask_elk(store: "GraphStore", closure: "Closure | None", jars: Path | None, 
     from usd2kg.validation import ask_elk  # noqa: PLC0415
 
     if closure is None:
-        raise GraphError(f"{store.source}: a reasoner needs the ontology of the graph; name its file with --ontology")
+        raise GraphError(f"{store.source}: the reasoner needs the ontology of the graph; give its file with --ontology")
     answer = ask_elk(store, closure, jars=jars, limit=limit)
     verdict = "consistent" if answer.is_consistent else "inconsistent"
     notify(f"elk: {verdict}; {answer.beyond} of {answer.axioms} axioms are not in OWL 2 EL and were ignored")

@@ -46,7 +46,7 @@ def agreement_command(
     ontology: OntologyFile = None,
     json: JsonOutput = False,
 ) -> None:
-    """Measure the agreement of two gold files: exact, Cohen's kappa, accepting second labels, hierarchical."""
+    """Measure the agreement of two gold files: exact, Cohen's kappa, with second labels accepted, and hierarchical."""
     from usd2kg.evaluation import read_gold  # noqa: PLC0415
     from usd2kg.evaluation.metrics import agreement as metric  # noqa: PLC0415
     from usd2kg.ontology import local_name  # noqa: PLC0415

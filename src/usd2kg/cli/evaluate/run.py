@@ -84,11 +84,11 @@ def _evaluation_text(result: "Evaluation", selection: "SelectionScore", tbox: "T
         ("objects (distinct names)", f"{s.n} ({s.names})", None),
         ("answered", str(s.answered), None),
         ("exact match (EMA) %", f"{s.ema:.1f}", _interval_text(s.ema_interval)),
-        ("  copies drawn together", None, _interval_text(s.ema_name_interval)),
-        ("  each distinct name once %", f"{s.ema_by_name:.1f}", _interval_text(s.ema_by_name_interval)),
+        ("  resampled by distinct name", None, _interval_text(s.ema_name_interval)),
+        ("  mean over distinct names %", f"{s.ema_by_name:.1f}", _interval_text(s.ema_by_name_interval)),
         ("  accepting a second label %", f"{s.ema_also:.1f}", _interval_text(s.ema_also_interval)),
         ("exact match end to end %", f"{e.ema:.1f}", _interval_text(e.ema_interval)),
-        ("  copies drawn together", None, _interval_text(e.ema_name_interval)),
+        ("  resampled by distinct name", None, _interval_text(e.ema_name_interval)),
         ("hierarchical F1 (HF1)", f"{s.hf1:.3f}", f"{s.hf1_interval.lower:.3f} to {s.hf1_interval.upper:.3f}"),
         ("  end to end", f"{e.hf1:.3f}", f"{e.hf1_interval.lower:.3f} to {e.hf1_interval.upper:.3f}"),
         ("calibration error", format_optional(s.calibration_error, ".3f"), None),
@@ -110,7 +110,7 @@ def _evaluation_text(result: "Evaluation", selection: "SelectionScore", tbox: "T
         if not score.is_exact
     ]
     text = format_table(("measure", "value", "95 % interval"), [*rows, *misses])
-    return text + ("\n" + format_table(("wrong", "answer", "gold", "because"), wrong) if wrong else "")
+    return text + ("\n" + format_table(("wrong", "answer", "gold", "explanation"), wrong) if wrong else "")
 
 
 def _interval_text(interval: tuple[float, float]) -> str:

@@ -46,10 +46,10 @@ class StudyOptions(OptionBundle):
     ontology: OntologyFile = None
 
     def check_unused(self) -> None:
-        """Check that no option is given that has an effect on the study's matrix only.
+        """Check that no option is given that only affects the study's matrix.
 
         Raises:
-            EvaluationError: one is given.
+            EvaluationError: such an option is given.
         """
         given = {
             "--model": self.model,
@@ -60,11 +60,11 @@ class StudyOptions(OptionBundle):
         }
         for option, value in given.items():
             if value is not None:
-                raise EvaluationError(f"{option} {value}: is for --study; a matrix file states it itself")
+                raise EvaluationError(f"{option} {value}: requires --study; a matrix file contains this setting")
 
 
 def plan_study_matrix(options: StudyOptions) -> "Matrix":
-    """Return the study's matrix; stderr says which baselines are not installed.
+    """Return the study's matrix; baselines that are not installed are reported on stderr.
 
     Raises:
         EvaluationError: the options do not name one scene with gold labels, or a file is missing.
@@ -76,7 +76,7 @@ def plan_study_matrix(options: StudyOptions) -> "Matrix":
         raise EvaluationError(f"{scene.missing}: no such file; correct the path")
     unavailable = find_unavailable_baselines()
     for name, reason in unavailable.items():
-        notify(f"the baseline {name} is left out: {reason}")
+        notify(f"the baseline {name} is skipped: {reason}")
     return plan_study(scene, options.model, without=frozenset(unavailable))
 
 
@@ -87,14 +87,14 @@ def _scene(options: StudyOptions) -> "SceneSpec":
 
     path = options.scene or options.kitchen_set
     if options.scene is not None and options.kitchen_set is not None:
-        raise EvaluationError("--scene and --kitchen-set name two scenes; leave out one of them")
+        raise EvaluationError("--scene and --kitchen-set exclude each other; leave out one of them")
     if path is None and options.gold is not None:
-        raise EvaluationError(f"{options.gold}: --gold has no scene; name it with --scene or --kitchen-set")
+        raise EvaluationError(f"{options.gold}: --gold needs a scene; give it with --scene or --kitchen-set")
     if path is None:
         return SceneSpec("Demo kitchen", demo_scene(), demo_gold(), options.ontology, "made for this project", False)
     if options.gold is None:
         raise EvaluationError(
-            f"{path}: has no gold labels; label it with usd2kg eval annotate, and name them with --gold"
+            f"{path}: has no gold labels; label it with usd2kg eval annotate, and pass them with --gold"
         )
     if options.kitchen_set is not None:
         return kitchen_scene(check_kitchen_set(options.kitchen_set), options.gold, options.ontology)
@@ -118,9 +118,9 @@ def study_text(results: "list[SceneResult]") -> str:
 def kitchen_set_command(
     folder: Annotated[Path, Argument(metavar="PATH", help="Folder of the unpacked Kitchen Set.")],
 ) -> None:
-    """Check a download of Pixar's Kitchen Set, and list the objects that come nearest to those of the study.
+    """Check a download of Pixar's Kitchen Set, and list the objects that best approximate those of the study.
 
-    They are the objects of our selection that have geometry and are not inside another object.
+    These are the selected objects that have geometry and are not inside another object.
     """
     from usd2kg.evaluation.kitchen_set import check_kitchen_set, study_objects  # noqa: PLC0415
     from usd2kg.evaluation.study import STUDY_OBJECTS  # noqa: PLC0415

@@ -1,4 +1,4 @@
-"""The options that set where a server listens."""
+"""The options for the address of a server."""
 
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Annotated
@@ -17,7 +17,7 @@ Port = Annotated[int, Option("--port", min=0, max=65535, help="Port; 0 chooses a
 
 @dataclass(frozen=True)
 class AddressOptions(OptionBundle):
-    """Address and names of the server; the port has another default in each command."""
+    """Address and names of the server; the default port depends on the command."""
 
     host: Annotated[str, Option("--host", help="Address to listen on; 127.0.0.1 accepts local connections only.")] = (
         "127.0.0.1"

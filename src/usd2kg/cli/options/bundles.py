@@ -16,14 +16,14 @@ class OptionBundle:
     """Base of the bundles: dataclasses of options, with other bundles as fields."""
 
     output_options: ClassVar[frozenset[str]] = frozenset()
-    """Names of the options whose files are written; those of the other options are read."""
+    """Names of the options with output files; the files of other options are inputs."""
 
 
 def check_files(outputs: Iterable[Path | None], inputs: Iterable[Path | None], *bundles: OptionBundle) -> None:
-    """Check that a command overwrites none of the files that it reads, given directly or in a bundle.
+    """Check that a command overwrites none of its input files, given directly or in a bundle.
 
     Raises:
-        OutputError: an output is an input, or named twice.
+        OutputError: an output is also an input or another output.
     """
     files = [file for bundle in bundles for file in bundle_files(bundle)]
     written = [path for path, is_output in files if is_output]

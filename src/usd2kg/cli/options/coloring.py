@@ -18,13 +18,13 @@ __all__ = ["ColorOptions"]
 
 @dataclass(frozen=True)
 class ColorOptions(OptionBundle):
-    """What colours show, and where classes come from."""
+    """The property shown by colours, and the source of classes."""
 
     color_by: Annotated[
         str | None,
         Option(
             "--color-by",
-            help="What colours show, with a legend: material, class, concept, confidence, room, support "
+            help="Property shown by colours, with a legend: material, class, concept, confidence, room, support "
             "(what an object is on or in), or answer, which needs --ask; default: answer with --ask, else material.",
         ),
     ] = None
@@ -36,7 +36,7 @@ class ColorOptions(OptionBundle):
     decisions: DecisionsFile = None
 
     def mode(self) -> "ColorMode":
-        """Return what colours show.
+        """Return the property shown by colours.
 
         Raises:
             OutputError: the mode is unknown, or does not fit the other options.
@@ -56,6 +56,6 @@ class ColorOptions(OptionBundle):
         else:
             raise OutputError(f"--color-by {self.color_by}: expected {', '.join(modes[:-1])} or {modes[-1]}")
         if (mode is ColorMode.ANSWER) != (self.ask is not None):
-            problem = "needs a question" if self.ask is None else "shows no answer"
+            problem = "needs a question" if self.ask is None else "does not show the answer"
             raise OutputError(f"--color-by {mode} {problem}; use --ask 'what is on the table?' with --color-by answer")
         return mode

@@ -27,8 +27,8 @@ OntologyFile = Annotated[
     Option(
         "--ontology",
         metavar="|".join(("FILE", *BUILT_IN_ONTOLOGIES)),
-        help="OWL file with the candidate classes, or a built-in ontology; default: what suits the scene or graph; for "
-        "eval, home.",
+        help="OWL file with the candidate classes, or a built-in ontology; default: the one that suits the scene or "
+        "graph; home for eval.",
     ),
 ]
 BaseIri = Annotated[

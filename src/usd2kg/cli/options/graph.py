@@ -1,4 +1,4 @@
-"""The options that set which relations a graph has and how it is written."""
+"""The options for the relations and the modelling of a graph."""
 
 import os
 from dataclasses import dataclass
@@ -53,7 +53,7 @@ class SpatialOptions(OptionBundle):
         Option(
             "--viewpoint",
             help="Point x,y,z in metres, z up, from which left, right, front and behind are found, within 40 degrees; "
-            "x,y,z,dx,dy,dz sets the viewing direction. Default: none, no such relations.",
+            "x,y,z,dx,dy,dz sets the viewing direction. Default: none, without these relations.",
         ),
     ] = None
 
@@ -97,8 +97,8 @@ class AnnotationOptions(OptionBundle):
         str | None,
         Option(
             "--time-of-run",
-            help="Time stamp of the graph: now, or ISO 8601 with a time zone; default: SOURCE_DATE_EPOCH if set, else "
-            "none, so that the same input gives the same bytes.",
+            help="Time stamp of the graph: now, or ISO 8601 with a time zone; default: SOURCE_DATE_EPOCH if set, "
+            "otherwise none, so that the same input gives the same bytes.",
         ),
     ] = None
 

@@ -1,4 +1,4 @@
-"""The options that set how objects are grounded."""
+"""The options for grounding."""
 
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -48,7 +48,7 @@ class GroundingOptions(OptionBundle):
         ),
     ] = None
     abstain: Annotated[
-        bool, Option("--abstain", help="Let the lexical grounder answer a superclass where its candidates are close.")
+        bool, Option("--abstain", help="Let the lexical grounder answer with a superclass if its candidates are close.")
     ] = False
     alignment: AlignmentFile = None
     class_sizes: Annotated[
@@ -74,7 +74,7 @@ class GroundingOptions(OptionBundle):
         """The naming regime.
 
         Raises:
-            GroundingError: it is unknown.
+            GroundingError: the regime is unknown.
         """
         from usd2kg.grounding import parse_regime  # noqa: PLC0415 - loads OpenUSD, too slow for --help
 
@@ -85,7 +85,7 @@ class GroundingOptions(OptionBundle):
         """The evidence groups to use; None for all.
 
         Raises:
-            GroundingError: one is unknown.
+            GroundingError: a group is unknown.
         """
         from usd2kg.grounding import parse_evidence  # noqa: PLC0415
 

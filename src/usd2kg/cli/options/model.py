@@ -35,14 +35,14 @@ ModelName = Annotated[
 ]
 CompletionCacheFile = Annotated[
     Path | None,
-    Option("--completions", help="Cache of completions; default: $USD2KG_CACHE, else in the user's cache folder."),
+    Option("--completions", help="Cache of completions; default: $USD2KG_CACHE, otherwise in the user's cache folder."),
 ]
 ObjectsPerPrompt = Annotated[
     int | None,
     Option(
         "--objects-per-prompt",
         min=1,
-        help="Objects, or concepts, that one prompt asks about; default: 1, or 40 for llm-concept.",
+        help="Objects or concepts per prompt; default: 1, or 40 for llm-concept.",
     ),
 ]
 Thinking = Annotated[bool, Option("--thinking", help="Turn on the model's own reasoning.")]
@@ -125,7 +125,7 @@ class RequestLimits(OptionBundle):
 
 @dataclass(frozen=True)
 class RequestOptions(RequestLimits):
-    """The requests of a command that asks about one input."""
+    """Request options of a command with a single input."""
 
     refresh: Annotated[bool, Option("--refresh", help="Request new completions instead of using cached ones.")] = False
     dry_run: Annotated[
@@ -178,7 +178,7 @@ class ModelOptions(OptionBundle):
             "--cascade",
             min=0,
             max=1,
-            help="Ask only where the lexical grounder's confidence is lower; default: everywhere.",
+            help="Ask only about objects below this confidence of the lexical grounder; default: all objects.",
         ),
     ] = None
     samples: Annotated[
@@ -198,7 +198,7 @@ class ModelOptions(OptionBundle):
         ),
     ] = None
     examples: Annotated[
-        int, Option("--examples", min=0, help="Number of --decisions to show in the prompt as examples.")
+        int, Option("--examples", min=0, help="Number of decisions from --decisions to show in the prompt as examples.")
     ] = 0
     write_alignment: Annotated[
         Path | None,

@@ -1,4 +1,4 @@
-"""Options of commands that run other people's queries."""
+"""Options of commands that run untrusted queries."""
 
 from typing import Annotated
 

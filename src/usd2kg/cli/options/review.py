@@ -1,4 +1,4 @@
-"""The options of a person's decisions."""
+"""The options for a person's review decisions."""
 
 from dataclasses import dataclass, replace
 from pathlib import Path
@@ -26,13 +26,13 @@ DecisionsFile = Annotated[
 ]
 Reviewer = Annotated[
     str | None,
-    Option("--reviewer", metavar="NAME", help="Name or ORCID iD of the reviewer of decisions that state none."),
+    Option("--reviewer", metavar="NAME", help="Name or ORCID iD of the reviewer, for decisions without one."),
 ]
 
 
 @dataclass(frozen=True)
 class ReviewOptions(OptionBundle):
-    """Decisions of a person, and the queue of open ones."""
+    """Decisions of a person, and the queue of open decisions."""
 
     output_options = frozenset({"queue"})
 
@@ -57,7 +57,7 @@ class ReviewOptions(OptionBundle):
 
         if self.decisions is None:
             if self.reviewer is not None:
-                raise GroundingError(f"--reviewer {self.reviewer}: there are no decisions; name them with --decisions")
+                raise GroundingError(f"--reviewer {self.reviewer}: there are no decisions; give them with --decisions")
             return {}
         found = read_decisions(self.decisions, tbox)
         return {path: replace(made, reviewer=made.reviewer or self.reviewer or "") for path, made in found.items()}
@@ -74,7 +74,8 @@ class CarryOverOptions(OptionBundle):
         Option(
             "--previous",
             metavar="OLD",
-            help="Graph or stage of the --decisions, to carry them over to renamed or moved objects; default: none.",
+            help="Earlier graph or stage of the --decisions, to carry them over to renamed or moved objects; "
+            "default: none.",
         ),
     ] = None
     unplaced: Annotated[
@@ -89,15 +90,15 @@ class CarryOverOptions(OptionBundle):
         """Check the options before anything is read.
 
         Raises:
-            GroundingError: they come without decisions, without an earlier version, or with several scenes.
+            GroundingError: there are no decisions, no earlier version, or several scenes.
             OutputError: a file cannot be written.
         """
         if self.previous is None:
             if self.unplaced or self.carried:
-                raise GroundingError("--unplaced and --carried need the earlier scene; name it with --previous OLD")
+                raise GroundingError("--unplaced and --carried need the earlier scene; give it with --previous OLD")
             return
         if decisions is None:
-            raise GroundingError("--previous needs decisions of a person; name their file with --decisions FILE")
+            raise GroundingError("--previous needs a person's decisions; give their file with --decisions FILE")
         if scene_count > 1:
             raise GroundingError(f"--previous takes one scene, found {scene_count}; build them one by one")
         for path in filter(None, (self.unplaced, self.carried)):

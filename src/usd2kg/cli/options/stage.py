@@ -1,4 +1,4 @@
-"""The options that set how a stage is read."""
+"""The options for reading a stage."""
 
 from dataclasses import dataclass
 from pathlib import Path

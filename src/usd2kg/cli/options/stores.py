@@ -20,7 +20,7 @@ GraphSource = Annotated[str, _GRAPH]
 OptionalGraphSource = Annotated[str | None, _GRAPH]
 
 FOLDER_OR_URL = "FOLDER|URL"
-"""The metavar of options that take the path of a folder, or an address."""
+"""Metavar of options that take a folder path or an address."""
 
 _STORE = Option(
     "--store",
