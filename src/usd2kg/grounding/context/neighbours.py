@@ -105,7 +105,7 @@ class _StageIndex:
         return frozenset(found)
 
     def of_names(self, find: Callable[[Sequence[str]], G]) -> G:
-        """Return what `find` makes of the names of all objects, computed once for each `find`."""
+        """Return the results of `find` for the names of all objects, computed once for each `find`."""
         if find not in self._of_names:
             self._of_names[find] = find([obj.name for obj in self.objects])
         found: G = self._of_names[find]
@@ -129,7 +129,7 @@ class Neighbourhood:
     def words_by_form(
         self, write_forms: WriteForms, rate: Rate[R], gather: Gather[R, G], most: int
     ) -> Callable[[str], G | None]:
-        """Return a function from an abbreviated form to what `gather` makes of the stage's words with that form.
+        """Return a function from an abbreviated form to the result of `gather` on the stage's words with that form.
 
         The function returns None for a form that no word of another object has.
 
@@ -145,7 +145,7 @@ class Neighbourhood:
         return words.without_object(self._stage.objects[self._index].name)
 
     def of_stage(self, find: Callable[[Sequence[str]], G]) -> G:
-        """Return what `find` makes of the names of all objects of the stage, computed once a stage.
+        """Return the results of `find` for the names of all objects of the stage, computed once per stage.
 
         The object's own name is among them: not for masked regimes.
         """

@@ -182,7 +182,7 @@ class BoxGrid:
 
 
 class Placement:
-    """Where one object is, computed on first use."""
+    """Location of one object, computed on first use."""
 
     def __init__(self, plan: BoxGrid, index: int, *, is_anonymous: bool) -> None:
         """Create it; `is_anonymous` hides the names of other objects."""

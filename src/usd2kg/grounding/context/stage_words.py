@@ -19,7 +19,7 @@ WriteForms = Callable[[str], Iterable[tuple[str, float]]]
 Rate = Callable[[str, float, float], R]
 """Returns the rating of a word from its share of objects and the score of its form; the smallest is the best."""
 Gather = Callable[[str, list[R]], G]
-"""Makes a result from a form and the ratings of its words, best first."""
+"""Creates a result from a form and the ratings of its words, best first."""
 
 
 class StageWords:
@@ -84,7 +84,7 @@ class FormWords(Generic[R, G]):
         return self._gathered[form]
 
     def _best_without(self, own: frozenset[str], form: str) -> G | None:
-        # Without the object its own words lose one count and may fall in rank; others keep their order.
+        # Without the object, its own words lose one count and may drop in rank; the others keep their order.
         near = self._rank(form, self._most + len(own))
         if not any(word in own for _, word, _ in near):
             return self._best(form)

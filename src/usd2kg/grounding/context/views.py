@@ -1,4 +1,4 @@
-"""The view that a grounder has of one object: the evidence it may use, with the name masked by the naming regime.
+"""A grounder's view of one object: the permitted evidence, with the name masked by the naming regime.
 
 A regime masks the name of one target at a time; siblings and parents keep theirs. Grounding is leave-one-out: nothing
 learned from one view may be used for another, because the siblings of all targets together reveal every name.
@@ -231,7 +231,7 @@ def _masked_names(scene: Scene, regime: NamingRegime, length: int) -> list[str]:
 
 
 def _collision_free(names: list[str], short: list[str]) -> list[str]:
-    """Return the short names, numbered where different authored names share one."""
+    """Return the short names, numbered if different authored names share one."""
     by_name: dict[str, str] = {}
     owned: set[str] = set()
     counts: Counter[str] = Counter()

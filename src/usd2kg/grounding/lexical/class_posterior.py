@@ -45,7 +45,7 @@ class ClassPosterior(NamedTuple):
     probabilities: Floats
     """(classes,)"""
     place: str | None
-    """The kind of place that the object is in, if one is more probable than all others together."""
+    """The kind of place of the object, if its probability exceeds that of all others together."""
 
     def probability(self, iri: ClassIRI) -> float:
         """Return the probability of a class; 0 for a class without everyday objects."""

@@ -126,7 +126,7 @@ def _log_posterior(iri: ClassIRI | None, posterior: ClassPosterior) -> float:
 
 
 def calibrate(features: Mapping[str, float]) -> float:
-    """Return the probability that the predicted class is the one that a person would choose, to four decimals."""
+    """Return the probability that a person would choose the predicted class, to four decimals."""
     weights = _weights()
     # A new feature has no weight until it is fitted.
     return round(1 / (1 + math.exp(-sum(weights.get(name, 0.0) * value for name, value in features.items()))), 4)

@@ -143,7 +143,7 @@ class ContextEvidence:
         return vote
 
     def _make_place(self, prefix: tuple[str, ...]) -> ScoreObject:
-        """Return the function that returns what an object says about the place, see `_log_places_of_neighbour`."""
+        """Return a function from an object to its evidence for each kind of place, see `_log_places_of_neighbour`."""
 
         def place(other: PlacedObject) -> Floats:
             return self._log_places_of_neighbour(other._replace(name=without_prefix(other.name, prefix)))
@@ -162,7 +162,7 @@ class ContextEvidence:
         return sum(siblings, start=np.zeros(len(PLACES))) * neighbour_weights(VOTE.sibling_distance)
 
     def _log_places_of_neighbour(self, other: PlacedObject) -> Floats:
-        """Return the log likelihood of each kind of place given one object's name, or else its size, (places,)."""
+        """Return the log likelihood of each kind of place by an object's name or, without one, its size, (places,)."""
         by_name = self._log_places_of_name(other.name, other.parents)
         if by_name.any():
             return by_name

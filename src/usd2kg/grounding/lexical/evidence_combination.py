@@ -22,9 +22,9 @@ class ScoredClass(NamedTuple):
     class_iri: ClassIRI
     score: float
     explain: Callable[[], str]
-    """Returns one sentence for a person; a function because most explanations are never shown."""
+    """Returns the explanation as one sentence; a function, since most explanations are never shown."""
     words: tuple[str, ...] = ()
-    """The words that an abbreviated name was read as; else empty."""
+    """The expansion of an abbreviated name; otherwise empty."""
     is_listed: bool = False
     """See `Match.is_listed`."""
 

@@ -131,7 +131,7 @@ def _make_object_grounder(
 
 
 def _as_text(tbox: TBox) -> Iterator[str]:
-    """Yield what the lexicon depends on; the same ontology may be read in another scope."""
+    """Yield the cache key parts of a lexicon; the same ontology may be loaded with another scope."""
     yield tbox.content_hash
     for cls in tbox.classes:
         yield "\n".join((cls.iri, cls.label, cls.comment, *cls.alt_labels, "", *cls.parents))

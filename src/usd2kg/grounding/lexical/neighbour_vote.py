@@ -50,7 +50,7 @@ def siblings_as_neighbours(names: Iterable[str], parents: tuple[str, ...]) -> li
 
 
 def vote_of(matches: Sequence[Match]) -> Vote | None:
-    """Return the vote of a neighbour by the matches of its name, best first; None if the name is not clear."""
+    """Return the vote of a neighbour from the matches of its name, best first; None if the name is ambiguous."""
     if not matches or matches[0].score < VOTE.min_score:
         return None
     return Vote(matches[0].class_iri, matches[0].score)

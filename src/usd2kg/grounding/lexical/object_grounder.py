@@ -76,7 +76,7 @@ class ObjectGrounder:
         self._context = ContextEvidence(self._tbox, self._words, reader, matcher, tables)
 
     def _similar_members(self) -> SimilarMembers | None:
-        """Return the search for similar terms; None without a language model's lists: labels alone gain nothing."""
+        """Return the search for similar terms; None without lists of a model, since labels alone do not help."""
         terms = [term for term in self._lexicon.terms.values() if term.class_iri in self._tbox.by_iri]
         if all(term.kind is not TermKind.MODEL for term in terms):
             return None

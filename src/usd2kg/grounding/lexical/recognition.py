@@ -1,4 +1,4 @@
-"""Recognise what an object is from its own words, as a concept: a sense of a noun, independent of any ontology."""
+"""Recognise the concept of an object from its own words: a sense of a noun, independent of any ontology."""
 
 import json
 import math

@@ -9,13 +9,13 @@ __all__ = ["ScoredView"]
 
 
 class ScoredView(NamedTuple):
-    """A prediction, and what its confidence follows from."""
+    """A prediction with the features for its confidence."""
 
     prediction: Prediction
     """With an uncalibrated score as confidence."""
     posterior: ClassPosterior
     """By the appearance of the object."""
     is_listed: bool = False
-    """Whether a list of what belongs to the class decided: a shipped one, a language model's or a person's."""
+    """Whether a list of class members decided: shipped, by a language model or by a person."""
     unknown_share: float = 0.0
     """Share of the words of the name, as it was read, that are not known; 0 for a name without words."""

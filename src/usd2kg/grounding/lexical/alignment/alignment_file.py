@@ -131,7 +131,7 @@ class AlignmentFile:
         *,
         use_lists: bool = True,
     ) -> tuple[TBox, Lexicon]:
-        """Return the TBox below one class that is true of most objects, and its lexicon by the file.
+        """Return the TBox with an artificial root that applies to most objects, and its lexicon from the file.
 
         A file without `default_class` in its header changes the alignment that is built, with the shipped lists if
         `use_lists`. Rows of a person come last.

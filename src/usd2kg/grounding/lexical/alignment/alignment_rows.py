@@ -75,14 +75,14 @@ class AlignmentRow:
     subject: str
     """A term in lower case, or the IRI of a concept."""
     class_iri: ClassIRI
-    """`NO_CLASS_IRI` for what belongs to no class."""
+    """`NO_CLASS_IRI` for a subject without a class."""
     confidence: float
     """How far the subject is trusted to mean the class, 0 to 1."""
     label: str = ""
     """The noun of a concept."""
     reason: str = ""
     term_kind: TermKind = TermKind.SYNONYM
-    """Where a term comes from."""
+    """Origin of a term."""
     category_size: int = 0
     """Number of concepts in the category."""
     tool: str = ""
@@ -188,7 +188,7 @@ def _ontology_hash(file: SssomFile) -> str:
 
 
 def _check_unique(path: Path, rows: Iterable[AlignmentRow]) -> None:
-    """Raise GroundingError if a concept or term has two classes; a person's row may differ from one that was built."""
+    """Raise GroundingError if a concept or term has two classes; a person's row may override a built row."""
     seen: dict[tuple[RowKind, str, bool], AlignmentRow] = {}
     for row in rows:
         if row.kind is RowKind.CATEGORY or row.is_negated or row.tool:

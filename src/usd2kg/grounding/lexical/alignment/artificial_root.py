@@ -1,4 +1,4 @@
-"""A root that is true of most objects, for TBoxes that lack one."""
+"""An artificial root that applies to most objects, for TBoxes without such a root."""
 
 from collections.abc import Mapping
 from dataclasses import replace
@@ -18,7 +18,7 @@ NO_CLASS_IRI = f"urn:usd2kg:{NO_CLASS}"
 def build_rooted_lexicon(
     tbox: TBox, taxonomy: Taxonomy, synonyms: Mapping[ClassIRI, tuple[str, ...]]
 ) -> tuple[TBox, Lexicon]:
-    """Return the TBox below one class that is true of most objects, and its lexicon."""
+    """Return the TBox with an artificial root that applies to most objects, and its lexicon."""
     lexicon = build_lexicon(tbox, taxonomy, synonyms)
     rooted = with_root(tbox, lexicon.default_class or NO_CLASS_IRI, taxonomy)
     if rooted is tbox:
@@ -36,7 +36,7 @@ def root_synonyms(rooted: TBox, synonyms: Mapping[ClassIRI, tuple[str, ...]]) ->
 
 
 def with_root(tbox: TBox, default: ClassIRI, taxonomy: Taxonomy) -> TBox:
-    """Return the TBox below one class that is true of most objects.
+    """Return the TBox with an artificial root that applies to most objects.
 
     A TBox without a default class gets an artificial root, `NO_CLASS_IRI`. In a list of labels with a residual class,
     such as `otherprop`, that class becomes the superclass of the other roots.

@@ -1,4 +1,4 @@
-"""The alignment of a TBox with concepts and terms that is built, as opposed to one that is read from a file."""
+"""Building of the alignment of a TBox with concepts and terms, when none is read from a file."""
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
@@ -19,7 +19,7 @@ class BuiltAlignment:
     """What labels, synonyms and the shipped lists give."""
 
     tbox: TBox
-    """The classes below one that is true of most objects."""
+    """The classes below the artificial root."""
     lexicon: Lexicon
     """By labels and synonyms alone."""
     rows: Sequence[AlignmentRow]

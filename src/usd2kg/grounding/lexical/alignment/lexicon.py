@@ -66,9 +66,9 @@ class Lexicon:
     category_members: Mapping[int, Sequence[CategoryMember]]
     """Synset → classes that have it as a member in common usage, though it is not their hyponym."""
     curated_synsets: frozenset[int] = frozenset()
-    """Synsets whose class a person chose in an alignment file; they decide alone for themselves and what is below."""
+    """Synsets whose class a person chose in an alignment file; the choice is final for them and their hyponyms."""
     listed_synsets: frozenset[int] = frozenset()
-    """Synsets whose class a list of members gives, shipped or a language model's."""
+    """Synsets with a class from a list of members, shipped or by a language model."""
     excluded_classes: Mapping[int, frozenset[ClassIRI]] = field(default_factory=dict)
     """Synset → classes that, by a list or a person, neither it nor its hyponyms belong to by a hypernym further up."""
 
@@ -104,7 +104,7 @@ def make_lexicon(
     default_class: ClassIRI | None,
     home_classes: frozenset[ClassIRI],
 ) -> Lexicon:
-    """Return a lexicon with what follows from its terms and its default class."""
+    """Return a lexicon with the data derived from its terms and its default class."""
     return Lexicon(
         terms=terms,
         sense_classes=sense_classes,
@@ -129,7 +129,7 @@ def _own_terms(tbox: TBox, taxonomy: Taxonomy, synonyms: Mapping[ClassIRI, tuple
     called = {text for text, _ in own}
     terms: dict[str, Term] = {}
     for cls in classes:
-        # What an ontology calls its classes precedes what the home vocabulary counts among another class.
+        # The class names of the ontology take precedence over memberships in the home vocabulary.
         names = [text for text in synonyms.get(cls.iri, ()) if text not in called or (text, cls.iri) in own]
         for text, kind in _texts_of(cls, names):
             keep_best(terms, Term(cls.iri, normalise_label(text, taxonomy), kind))
@@ -168,7 +168,7 @@ def _align_terms(tbox: TBox, terms: Mapping[str, Term], taxonomy: Taxonomy) -> d
 
 
 def _is_common_noun(term: Term, taxonomy: Taxonomy) -> bool:
-    """Return whether a term is a common noun: “CT scanner” is one, the name “SOLiD system” is not.
+    """Return whether a term is a common noun, like “CT scanner”, unlike the name “SOLiD system”.
 
     A synonym that means any object (“artefact”) does not align its class with all objects.
     """
@@ -287,7 +287,7 @@ def _category_members(
 
 
 def _add_head_nouns(terms: dict[str, Term]) -> None:
-    """Add the head noun of each two-word label as a term, where no other label has it and it is specific."""
+    """Add the head noun of each two-word label as a term if it is specific and unique among the labels."""
     by_head: dict[str, list[Term]] = {}
     for term in terms.values():
         if term.kind is TermKind.LABEL and " " in term.text:

@@ -52,7 +52,7 @@ class LexiconEditor:
         )
 
     def add_all(self, rows: Iterator[AlignmentRow]) -> None:
-        """Add rows that were built: each replaces what the file has for the subject before it."""
+        """Add built rows: each replaces an earlier row for the same subject."""
         for row in rows:
             self._check_class(row)
             if row.kind is RowKind.TERM:
@@ -63,7 +63,7 @@ class LexiconEditor:
                 self._add_member(row)
 
     def edit_all(self, rows: Iterable[AlignmentRow]) -> None:
-        """Add rows that take precedence over what was built: first of shipped lists, then of models, then of people."""
+        """Add rows that take precedence over built rows: from shipped lists, then from models, then from people."""
         for row in sorted(rows, key=_order):
             self._check_class(row)
             if row.kind is RowKind.TERM:

@@ -1,4 +1,4 @@
-"""Reviewed lists of what belongs to the classes of public ontologies, shipped in `data/class_members.csv`."""
+"""Reviewed lists of members of the classes of public ontologies, shipped in `data/class_members.csv`."""
 
 from collections import Counter
 from collections.abc import Mapping

@@ -1,4 +1,4 @@
-"""Rows of an alignment from lists of what belongs to each class: a language model's, or those that usd2kg ships."""
+"""Alignment rows from lists of class members, by a language model or shipped with usd2kg."""
 
 from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
@@ -17,7 +17,7 @@ __all__ = ["ClassMembers", "rows_of_members"]
 
 @dataclass(frozen=True, slots=True)
 class ClassMembers:
-    """What belongs to one class, as nouns.
+    """The members of one class, as nouns.
 
     `notebook` is a noun in its usual sense, `notebook#2` in the second sense of the taxonomy, `notebook#0` in a sense
     that the taxonomy lacks.
@@ -83,13 +83,13 @@ def _read_nouns(nouns: Sequence[str], taxonomy: Taxonomy) -> Iterator[tuple[str,
 
 
 def _class_of_most(named: set[str], terms: Mapping[str, ClassIRI], label: str, tbox: TBox) -> ClassIRI:
-    """Return the class of most terms for a concept; of equals that of its label, then the deepest."""
+    """Return the class of most terms for a concept; on a tie, that of its label, then the deepest."""
     counts = Counter(terms[term] for term in named)
     return max(sorted(counts), key=lambda iri: (counts[iri], terms.get(label) == iri, tbox.depths[iri]))
 
 
 class _Writer:
-    """Makes rows with what they have in common."""
+    """Creates rows with common fields."""
 
     def __init__(self, tool: str, taxonomy: Taxonomy) -> None:
         self._tool = tool

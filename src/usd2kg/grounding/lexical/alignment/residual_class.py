@@ -110,7 +110,7 @@ def _most_general_root(tbox: TBox, taxonomy: Taxonomy) -> ClassIRI | None:
 
 
 def _is_specific(noun: str, taxonomy: Taxonomy) -> bool:
-    """Return whether a noun means one kind of object, rather than artifacts or anything above them."""
+    """Return whether a noun denotes a specific kind of object, rather than `artifact` or a hypernym of it."""
     usual = usual_sense(noun, taxonomy)
     made = taxonomy.senses(_ARTIFACT)[0].synset
     return usual is not None and usual.synset not in {up for up, _ in taxonomy.walk_up(made)}

@@ -12,7 +12,7 @@ __all__ = ["AlignedClass", "Term", "TermKind", "keep_best", "term_key"]
 
 
 class TermKind(Enum):
-    """Where a term comes from."""
+    """Origin of a term."""
 
     LABEL = "label"
     """The class's own label or local name."""

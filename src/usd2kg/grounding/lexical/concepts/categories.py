@@ -1,4 +1,4 @@
-"""Categories of common usage whose members WordNet has elsewhere: a stapler is office stationery."""
+"""Categories of common usage that WordNet does not model as hypernyms: a stapler is office stationery."""
 
 from collections.abc import Iterator, Mapping
 from functools import lru_cache

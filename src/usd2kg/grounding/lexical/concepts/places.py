@@ -142,7 +142,7 @@ def _noun_shares() -> Floats:
 
 
 class Stance(NamedTuple):
-    """How an object stands, and which of its extents are equal."""
+    """Vertical extent of an object, and equality of its extents."""
 
     elevation_range: int | None
     """Index of the range of elevation; None if unknown."""

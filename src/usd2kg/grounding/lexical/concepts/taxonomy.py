@@ -137,7 +137,7 @@ class Taxonomy:
         return self._names[synset]
 
     def concept_iri(self, synset: int) -> str:
-        """Return the IRI of a synset: WordNet 3.1's, or one of this project for a noun that WordNet lacks."""
+        """Return the IRI of a synset: from WordNet 3.1, or from this project for nouns missing from WordNet."""
         at = synset * _OFFSET_DIGITS
         if offset := self._offsets[at : at + _OFFSET_DIGITS]:
             return f"{WORDNET}{offset}-n"

@@ -1,4 +1,4 @@
-"""HeadMatcher: finds what the words up to a head noun mean, as classes of a TBox or as concepts."""
+"""HeadMatcher: resolves the words up to a head noun to classes of a TBox or to concepts."""
 
 from collections.abc import Callable
 from typing import NamedTuple, Protocol
@@ -46,11 +46,11 @@ class HeadMatcher(Protocol):
     """Matches nouns and compounds."""
 
     def match(self, words: tuple[str, ...], places: tuple[str, ...]) -> HeadMatches:
-        """Return the longest known compound that ends with the last word, and what it may mean."""
+        """Return the longest known compound that ends with the last word, and its possible meanings."""
         ...
 
     def match_compound(self, words: tuple[str, str]) -> tuple[Match, ...]:
-        """Return what a compound of two words may mean; empty if it is not known as a compound."""
+        """Return the possible meanings of a two-word compound; empty if the compound is unknown."""
         ...
 
     def place_words(self, context: tuple[str, ...], parents: tuple[str, ...]) -> tuple[str, ...]:

@@ -27,11 +27,11 @@ class _ClassScore(NamedTuple):
     """Its best match."""
     score: float
     share: float
-    """1 if the score is close to that of the best class, else the score."""
+    """1 if the score is close to that of the best class, otherwise the score."""
 
 
 class HeadCandidate(NamedTuple):
-    """What the words up to one head noun mean."""
+    """The possible meanings of the words up to one head noun."""
 
     words: tuple[str, ...]
     """The known compound that ends with the head noun; empty if the head noun is unknown."""
@@ -76,7 +76,7 @@ _NO_PARENT = _ParentWords(frozenset(), (), frozenset())
 
 
 class PhraseMatcher:
-    """Matches noun phrases with what their head nouns mean: classes of a TBox, or concepts."""
+    """Matches noun phrases with the meanings of their head nouns: classes of a TBox, or concepts."""
 
     def __init__(self, heads: HeadMatcher, taxonomy: Taxonomy, reader: NameReader) -> None:
         self._taxonomy = taxonomy
@@ -179,7 +179,7 @@ class PhraseMatcher:
     def _head_of_part(
         self, whole: tuple[str, ...], words: tuple[str, ...], places: tuple[str, ...], is_corrected: bool
     ) -> HeadCandidate:
-        """Return what words mean alone, or as a part: the `seat_left` of a couch is a couch seat.
+        """Return the meanings of words alone or as a part of a whole: the `seat_left` of a couch is a couch seat.
 
         Args:
             whole: the words of the parent's name, or of the part of the name that repeats it.

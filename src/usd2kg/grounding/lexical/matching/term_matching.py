@@ -1,4 +1,4 @@
-"""Match the words up to a head noun with classes: by terms of the TBox, else by hypernyms of the head noun."""
+"""Match the words up to a head noun with classes, by terms of the TBox, then by hypernyms of the head noun."""
 
 from bisect import bisect_left
 from collections.abc import Callable, Iterator, Mapping
@@ -273,11 +273,11 @@ class TermMatcher:
             score = (MATCHING.compound_score if is_compound else MATCHING.noun_score) * aligned.weight
             is_label = self._has_foreign and steps == 0 and aligned.weight == 1.0
             if not (is_label and weight >= MATCHING.min_label_sense_weight):
-                # The TBox lacks the usual sense: a rarer sense is not meant instead.
+                # If the TBox lacks the usual sense, do not fall back to a rarer one.
                 is_rarer = lacks_usual and sense is not usual
                 score *= weight * (MATCHING.general_factor if is_rarer else 1.0)
             if aligned.class_iri in self._lexicon.general_classes:
-                # A near match with a root is weaker evidence than a distant one: a noun far below the root probably
+                # A near match with a root is weaker evidence than a distant match: a noun far below the root probably
                 # has no class of its own.
                 decay = MATCHING.step_decay ** max(0, MATCHING.root_steps - steps)
                 score *= MATCHING.general_factor * decay

@@ -74,7 +74,7 @@ class Arc(NamedTuple):
     """A piece of the letters after some paths; it may be a word, or no word."""
 
     starts: Starts
-    """At least one."""
+    """At least one element."""
     unread: tuple[float, float]
     """Log probability that the piece is not a word, in two terms; -inf where it must be one."""
     piece: Piece
@@ -198,7 +198,7 @@ class Beam:
         if unseen > -math.inf and (len(ordered) < _WIDTH or ordered[_WIDTH - 1][1][0] < unseen):
             return []
         exact, best = [], -math.inf
-        # The best single path leads to one of the words with the largest sums.
+        # The best single path is among the paths to the words with the largest sums.
         for key, way in ordered:
             if way[0] + _SLACK <= best:
                 break
@@ -271,7 +271,7 @@ def _by_score(item: tuple[_Key, _Way]) -> float:
 
 
 def _bounds(arcs: Sequence[Arc]) -> tuple[float, float, float]:
-    """Return the approximate score of the best words, a score that ten words reach, and one that is hopeless.
+    """Return the approximate best score, a score that ten words reach, and a pruning threshold.
 
     The paths before an arc and the words of its piece are in descending order, so that every cell of a table of their
     sums has at least the score of the last one.

@@ -1,4 +1,4 @@
-"""English words of all parts of speech: a token that is one is neither misspelt nor abbreviated."""
+"""English words of all parts of speech: a token in this list is neither misspelt nor abbreviated."""
 
 import gzip
 from functools import lru_cache

@@ -27,7 +27,7 @@ _STYLES = (SHORTENING.skeleton_share, SHORTENING.skeleton_with_first_vowel_share
 _LENGTHS = tuple(enumerate(SHORTENING.length_shares, start=1))
 """(number of letters kept, share)."""
 _WAYS = (SHORTENING.full_share, *(style * share for style in _STYLES for _, share in _LENGTHS))
-"""Share of each way, see `ways_of`."""
+"""Prior probability of each abbreviation style, see `ways_of`."""
 _LONGEST_FORM = len(_LENGTHS)
 _CACHED_LETTERS = 4
 """Length of the prefixes whose range of words is cached: about 10,000 exist, and few words share each."""

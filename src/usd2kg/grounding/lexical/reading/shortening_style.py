@@ -1,4 +1,4 @@
-"""Likelihood that all words of a name are shortened in one way: `spn` for spoon goes with `frk` for fork, not `for`.
+"""Likelihood of a common abbreviation style in a name: `spn` for spoon suggests `frk` for fork, not `for`.
 
 A way of shortening is a style and a number of letters, see `shortening`. The channel of `AbbreviationReader` shortens
 words independently: P(written | words) = Π_i Σ_s P(s) P(written_i | word_i, s). Most names use one way for all words:
@@ -18,7 +18,7 @@ __all__ = ["log_consistency"]
 _LOG_GAP_LETTER = math.log(CHANNEL.gap_letter)
 _LOG_COMMON_FORM = math.log(CHANNEL.common_form)
 _ANY_WAY = -1
-"""All bits set: no evidence of the way."""
+"""All bits set: no evidence of the style."""
 
 
 class _Parse(NamedTuple):
@@ -27,9 +27,9 @@ class _Parse(NamedTuple):
     score: float
     """Log probability of the forms, words independent."""
     informative: float
-    """The same for the words that are evidence of a way."""
+    """The same for the words that are evidence of a style."""
     ways: int
-    """The ways that all words may have in common, one bit each."""
+    """The styles consistent with all words, one bit each."""
 
 
 def log_consistency(letters: str, words: Sequence[str], whole: Mapping[int, str]) -> float:

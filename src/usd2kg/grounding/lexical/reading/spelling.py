@@ -43,7 +43,7 @@ class SpellingCorrector:
         return found or (word,)
 
     def _words_of_term(self, word: str) -> tuple[str, ...]:
-        """Return the words of a term whose joined form is not a noun (`slidecabinet`); else the word itself."""
+        """Return the words of a term whose joined form is not a noun (`slidecabinet`); otherwise the word itself."""
         term = self._lexicon.terms.get(word)
         words = tuple(term.text.split()) if term is not None and word not in self._taxonomy else ()
         return words if "".join(words) == word else (word,)

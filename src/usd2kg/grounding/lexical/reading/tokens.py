@@ -42,7 +42,7 @@ def tokens_of(name: str) -> list[Token]:
             tokens[-1] = tokens[-1]._replace(number=part)
         elif not (is_amount and is_glued and len(part) <= READING.max_unit_letters):
             tokens.append(Token(part.lower(), "", is_glued))
-        # A separate number may begin a measure (_6kg, _4tier), the one in Room1Door does not.
+        # A separate number may begin a measure (_6kg, _4tier), unlike the number in Room1Door.
         is_amount = part.isdigit() and start > 0 and not name[start - 1].isalpha()
     return tokens
 
@@ -64,5 +64,5 @@ def is_reference(token: Token, above: set[tuple[str, str]]) -> bool:
 
 
 def is_compound_part(token: Token, pair: tuple[Token, Token], references: list[Token]) -> bool:
-    """Return whether a reference is half of a compound whose other half is not one."""
+    """Return whether a reference is half of a compound whose other half is not a reference."""
     return token in pair and any(other not in references for other in pair)

@@ -59,7 +59,7 @@ class WordKinds:
         return any(noun in self._taxonomy for noun in stems)
 
     def _is_modifier(self, word: str) -> bool:
-        """Return whether a word describes an object and does not name one, even at the end of a name."""
+        """Return whether a word describes an object rather than naming it, even at the end of a name."""
         if word in self._lexicon.terms:
             return False
         if self._is_adjective(word):
