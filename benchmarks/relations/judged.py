@@ -53,6 +53,7 @@ SCENES = {
     ),
     "fzk_house": Sources(ASSIMP_MODELS / "IFC/AC14-FZK-Haus.ifc", (HERE / "judged/fzk_house.csv",)),
     "warehouse": Sources(ROOT / "benchmarks/scenes/warehouse/warehouse.usda", (HERE / "judged/warehouse.csv",)),
+    "garage": Sources(ROOT / "benchmarks/scenes/garage/garage.usdc", (HERE / "judged/garage.csv",)),
 }
 
 
