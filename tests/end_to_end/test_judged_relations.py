@@ -65,6 +65,7 @@ FLOORS = {
         "part-of": (0.97, 0.95),
         "attached-to": (0.97, 0.95),
     },
+    "garage": dict.fromkeys(("on", "inside", "part-of", "attached-to"), (0.97, 0.95)),
 }
 
 

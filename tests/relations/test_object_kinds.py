@@ -104,6 +104,26 @@ def test_a_real_house_has_the_same_relations_under_a_list_of_labels():
     assert links(house(), LABELS) == house_links()
 
 
+@cache
+def garage() -> Scene:
+    return read_scene(BENCHMARKS.parent / "scenes/garage/garage.usdc")
+
+
+@cache
+def garage_links() -> set[tuple[str, str, str]]:
+    return links(garage(), load_home_tbox())
+
+
+@pytest.mark.parametrize("path", [SHARED[1], *slow(SHARED[0], *SHARED[2:])])
+def test_a_garage_has_the_same_relations(path: str):
+    assert links(garage(), load_tbox(shared_file(f"ontologies/{path}"))) == garage_links()
+
+
+@pytest.mark.parametrize("tbox", [OWN, pytest.param(LABELS, marks=pytest.mark.slow)], ids=["twelve classes", "labels"])
+def test_a_garage_has_the_same_relations_under_small_ontologies(tbox: TBox):
+    assert links(garage(), tbox) == garage_links()
+
+
 def test_not_everything_is_a_container():
     assert links(ROOM, OWN) >= {
         ("/Room/apple", "inside", "/Room/salad_bowl"),

@@ -5,8 +5,11 @@ from typing import Any
 import pytest
 
 from tests.graph.records import related, thing
-from tests.grounding.records import make_object
+from tests.grounding.records import make_object, make_scene
 from tests.relations.room_builder import RULES, Placed, relate
+from usd2kg.grounding import ground
+from usd2kg.ontology import load_home_tbox
+from usd2kg.relations import RelationOptions, find_relations
 from usd2kg.scene import Joint
 
 PART = RULES.part_of
@@ -139,3 +142,17 @@ class TestFitted:
     def test_finds_stated_parts_without_boxes(self):
         cabinet, door = make_object("/cab"), make_object("/cab/door", parent_path="/cab")
         assert list(parts((cabinet, "KitchenCabinet"), (door, "Door"))) == [("/cab/door", "/cab")]
+
+
+def test_a_door_is_a_part_of_its_frame():
+    scene = make_scene(
+        thing("/House/door_frame", (0, 0, 0), (1, 0.2, 2.1)),
+        thing("/House/door", (0.05, 0.05, 0), (0.9, 0.04, 2.05)),
+        thing("/House/door_handle", (0.1, -0.05, 1), (0.12, 0.1, 0.03)),
+    )
+    tbox = load_home_tbox()
+    found = find_relations(scene, tbox, ground(scene, tbox), RelationOptions(kinds=("part-of",)))
+    assert {(r.target, r.anchor) for r in found} == {
+        ("/House/door", "/House/door_frame"),
+        ("/House/door_handle", "/House/door"),
+    }

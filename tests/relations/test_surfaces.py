@@ -95,6 +95,21 @@ class TestHanging:
         # The wall behind it is within reach as well.
         assert room.of("curtain") == {("attached-to", "rod")}
 
+    @staticmethod
+    def by_a_wall(lower, size) -> set[tuple[str, str]]:
+        room = Room(FLOOR).box("wall", "Wall", (0, 4.8, 0), (3, 0.2, 2.5))
+        return room.box("piece", "Wall", lower, size).of("piece")
+
+    def test_a_panel_hangs_on_a_wall_though_its_class_is_that_of_a_wall(self):
+        assert self.by_a_wall((1, 4.7, 1), (1, 0.08, 0.6)) == {("attached-to", "wall")}
+
+    @pytest.mark.parametrize(
+        ("lower", "size"), [((1, 3.8, 1), (0.1, 1, 1)), ((3, 4.8, 2), (1, 0.2, 0.5))], ids=["partition", "lintel"]
+    )
+    def test_walls_that_meet_at_an_edge_do_not_hold_each_other(self, lower, size):
+        # Both are off the ground.
+        assert self.by_a_wall(lower, size) == set()
+
     def test_things_that_hang_from_each_other_only_are_attached_to_nothing(self):
         room = Room(FLOOR, artifact("one", (0, 0, 1), (0.2, 0.2, 0.2)), artifact("two", (0, 0, 1.2), (0.2, 0.2, 0.01)))
         assert room.of("one") == set()

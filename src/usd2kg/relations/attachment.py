@@ -6,12 +6,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from usd2kg.relations.array_records import concatenate_rows, first_of_each_group, rounded, select_rows
+from usd2kg.relations.backing import are_between
 from usd2kg.relations.boxed_objects import BoxedObjects, ClassMembership
 from usd2kg.relations.distances import box_gaps, surface_distances
 from usd2kg.relations.model import Links, margin_below, margin_score
 from usd2kg.relations.stronger import StrongerRelations
 from usd2kg.relations.thresholds import AttachedRule
 from usd2kg.shapes import overlapping_pairs
+from usd2kg.shapes.ragged import ragged_indices
 
 __all__ = ["find_attached", "find_held_beside_support"]
 
@@ -46,7 +48,8 @@ def find_attached(
     """Return the `attached-to` links of objects that are on, in and part of nothing so far.
 
     Walls and ceilings hold whatever is within a few centimetres, other objects what touches them. What reaches down to
-    the ground stands on it, and so does furniture on a plinth or legs, even where no floor is drawn.
+    the ground stands on it, and so does furniture on a plinth or legs, even where no floor is drawn. Walls and ceilings
+    hold each other only where one lies on a much larger one, as a panel does.
 
     Args:
         boxed: the objects.
@@ -55,8 +58,8 @@ def find_attached(
         rule: the thresholds.
         needs_mount: return only objects near a wall or ceiling.
     """
-    may_hang = stronger.is_free & ~classes.are_in("not_attached")[boxed.scene_index]
     is_mount = classes.are_in("mounts")[boxed.scene_index]
+    may_hang = stronger.is_free & (is_mount | ~classes.are_in("not_attached")[boxed.scene_index])
     clearance = np.where(classes.are_in("standing")[boxed.scene_index], rule.max_plinth, rule.min_clearance)
     hangs = classes.are_in("hanging")[boxed.scene_index]
     clearance[hangs] = 0.0
@@ -69,10 +72,13 @@ def find_attached(
     pairs = _near_pairs(boxed, targets, np.flatnonzero(may_hold), is_mount, reach, rule)
     pairs = select_rows(pairs, ~stronger.are_related(pairs.target, pairs.anchor))
     pairs = select_rows(pairs, ~_are_held_by_target(boxed, pairs, stronger.holder))
+    is_panel = is_mount[pairs.anchor] & _lie_on_much_larger(boxed, pairs, rule)
+    pairs = select_rows(pairs, is_panel | ~is_mount[pairs.target])
     is_beside = ~pairs.hangs & ~is_mount[pairs.anchor]
     pairs = select_rows(pairs, ~(is_beside & _meet_below_middle(boxed, pairs, rule)))
     gap = surface_distances(boxed, pairs.target, pairs.anchor, pairs.limit)
     pairs = select_rows(pairs._replace(gap=gap), gap <= pairs.limit)
+    pairs = select_rows(pairs, ~_are_backed(boxed, pairs, is_mount, rule))
     if needs_mount:
         pairs = select_rows(pairs, np.isin(pairs.target, pairs.target[is_mount[pairs.anchor]]))
     best = _nearest_held(boxed, pairs, is_mount, rule)
@@ -170,6 +176,35 @@ def _meet_below_middle(boxed: BoxedObjects, pairs: _Mounts, rule: AttachedRule) 
     gaps = box_gaps(boxed, pairs.target, pairs.anchor)
     meet = (gaps[:, :2].max(axis=1) >= -rule.max_contact) & (gaps[:, 2] < 0)
     return np.asarray(meet & (boxed.upper[pairs.anchor, 2] < boxed.middle[pairs.target, 2]))
+
+
+def _lie_on_much_larger(boxed: BoxedObjects, pairs: _Mounts, rule: AttachedRule) -> Mask:
+    """Return for each pair whether the target lies flat on a much larger anchor, within its face, as a panel on a wall.
+
+    A partition meets its wall at an edge, and a lintel is within the thickness of its wall.
+    """
+    lower, upper = boxed.lower[pairs.target], boxed.upper[pairs.target]
+    past = np.maximum(boxed.lower[pairs.anchor] - lower, upper - boxed.upper[pairs.anchor])
+    middle = boxed.middle[pairs.target]
+    is_off = (middle < boxed.lower[pairs.anchor]) | (middle > boxed.upper[pairs.anchor])
+    is_thin = np.arange(past.shape[1]) == boxed.size[pairs.target].argmin(axis=1)[:, None]
+    is_flat = np.where(is_thin, is_off, past <= rule.max_contact).all(axis=1)
+    is_larger = boxed.volume[pairs.anchor] >= rule.min_bearing_ratio * boxed.volume[pairs.target]
+    return np.asarray(is_flat & is_larger)
+
+
+def _are_backed(boxed: BoxedObjects, pairs: _Mounts, is_mount: Mask, rule: AttachedRule) -> Mask:
+    """Return for each pair whether the anchor is a wall in front of which there is another anchor of the target."""
+    is_apart = is_mount[pairs.anchor] & (pairs.gap > rule.max_contact)
+    walls, others = np.flatnonzero(is_apart), np.flatnonzero(~is_mount[pairs.anchor])
+    others = others[np.argsort(pairs.target[others], kind="stable")]
+    begin, end = (np.searchsorted(pairs.target[others], pairs.target[walls], side) for side in ("left", "right"))
+    row, nth = ragged_indices(end - begin)
+    wall, other = walls[row], others[begin[row] + nth]
+    is_behind = are_between(boxed, pairs.anchor[other], pairs.target[wall], pairs.anchor[wall], rule.min_backed)
+    backed = np.zeros(len(pairs.target), np.bool_)
+    backed[wall[is_behind]] = True
+    return backed
 
 
 def _are_beside_unheld(

@@ -7,7 +7,7 @@ from numpy.typing import NDArray
 
 from usd2kg.relations.array_records import concatenate_rows, first_of_each_group, is_on_cycle, ratios, select_rows
 from usd2kg.relations.boxed_objects import BoxedObjects, ClassMembership, corners_of, overlap_areas
-from usd2kg.relations.enclosure import measure_enclosures
+from usd2kg.relations.enclosure import measure_enclosures, measure_flanks
 from usd2kg.relations.model import Links, margin_above, margin_score
 from usd2kg.relations.thresholds import InsideRule, RelationRules, StandingInRule
 from usd2kg.shapes import overlapping_pairs
@@ -165,6 +165,10 @@ def _surfaces_agree(
     is_in = ((found.below >= rule.min_below) & (found.beside >= rule.min_beside)) | is_caged
     is_in &= (found.buried <= rule.max_buried) | ~is_open[some.anchor]
     is_around = np.minimum(np.minimum(found.below, found.above), found.beside) >= rule.min_surrounded
+    is_around &= some.is_surrounded
+    around = np.flatnonzero(is_around)
+    flanks = measure_flanks(boxed, some.target[around], some.anchor[around], rule.min_cavity_depth)
+    is_around[around] = flanks >= rule.min_surrounded
     depth = boxed.upper[some.anchor, 2] - boxed.lower[some.target, 2]
     is_deep = depth >= rule.min_cavity_depth * boxed.size[some.anchor, :2].min(axis=1)
     is_around |= is_deep & (found.below >= rule.min_surrounded) & (found.beside >= rule.min_walled)

@@ -12,7 +12,7 @@ from usd2kg.relations.settings import ENCLOSURE
 from usd2kg.shapes.axis_rays import find_crossings
 from usd2kg.shapes.surface import Surface
 
-__all__ = ["Enclosures", "measure_enclosures"]
+__all__ = ["Enclosures", "measure_enclosures", "measure_flanks", "points_of"]
 
 Array = NDArray[np.float64]
 Indices = NDArray[np.int64]
@@ -34,7 +34,8 @@ class Enclosures(NamedTuple):
     beside: Array
     """In the four horizontal directions, the mean."""
     buried: Array
-    """Of all rays: those that start within the material, not in a cavity."""
+    """Of all rays: those that start within the material, not in a cavity. Nothing is within it below the open sky: the
+    faces of a basin may point either way."""
     caged: Array
     """Share of the four sides beyond which the surface has corners, at the height of the object and no farther than it
     is long: the wires of a rack, which rays miss."""
@@ -53,7 +54,7 @@ def measure_enclosures(boxed: BoxedObjects, target: Indices, anchor: Indices) ->
 
 
 def _measure_some(boxed: BoxedObjects, target: Indices, anchor: Indices) -> Enclosures:
-    points = {index: _points_of(boxed, index) for index in np.unique(target).tolist()}
+    points = {index: points_of(boxed, index) for index in np.unique(target).tolist()}
     pairs = list(zip(target.tolist(), anchor.tolist(), strict=True))
     within = [_within(points[one], boxed.lower[other], boxed.upper[other]) for one, other in pairs]
     some = np.array([pair for pair, inner in enumerate(within) if len(inner)], np.int64)
@@ -72,11 +73,44 @@ def _measure_some(boxed: BoxedObjects, target: Indices, anchor: Indices) -> Encl
     return found
 
 
+def measure_flanks(boxed: BoxedObjects, target: Indices, anchor: Indices, depth_share: float) -> Array:
+    """Return for each pair the share of rays that meet the sides of a compartment beside its open side.
+
+    They start in front of the target, if need be: posts beside what hangs at the back of an open rack are no sides.
+
+    Args:
+        boxed: the objects.
+        target: indices of the objects that may be in a compartment; part of each is in the box of its anchor.
+        anchor: indices of the objects that may have the compartment; they have a surface.
+        depth_share: depth from the back at which there are sides, as a share of the shorter side of the anchor's front.
+    """
+    if not len(target):
+        return np.zeros(0)
+    low, high = boxed.lower[anchor], boxed.upper[anchor]
+    points = [_within(points_of(boxed, one), *ends) for one, *ends in zip(target.tolist(), low, high, strict=True)]
+    surfaces = [surface for other in anchor.tolist() if (surface := boxed.surfaces[other]) is not None]
+    hits = _cast(points, surfaces)[0][:_UP]
+    axis, side = np.unravel_index(hits.reshape(2 * _UP, -1).argmin(axis=0), (_UP, 2))
+    pair = np.arange(len(target))
+    front = boxed.size[anchor]
+    front[pair, axis] = np.inf
+    depth = depth_share * front.min(axis=1)
+    sign = np.where(side == 0, -1.0, 1.0)
+    back = np.where(side == 0, high[pair, axis], low[pair, axis])
+    moved = []
+    for number, inner in enumerate(points):
+        at = sign[number] * (inner[:, axis[number]] - back[number])
+        ahead = inner.copy()
+        ahead[:, axis[number]] += sign[number] * max(0.0, depth[number] - float(at.max()))
+        moved.append(ahead)
+    return np.asarray(_cast(moved, surfaces)[0][1 - axis, :, pair].mean(axis=1))
+
+
 def _within(points: Array, lower: Array, upper: Array) -> Array:
     return np.asarray(points[((points >= lower) & (points <= upper)).all(axis=1)])
 
 
-def _points_of(boxed: BoxedObjects, index: int) -> Array:
+def points_of(boxed: BoxedObjects, index: int) -> Array:
     """Return points (n, 3) of an object, slightly within its surface: a grid for a box."""
     surface, middle = boxed.surfaces[index], boxed.middle[index]
     if surface is None:
@@ -96,7 +130,8 @@ def _cast(points: Sequence[Array], surfaces: Sequence[Surface]) -> tuple[Array, 
     pair = np.repeat(np.arange(len(points)), count)
     orientation = np.repeat(np.array([surface.orientation for surface in surfaces]), count)
     lines = np.concatenate(points)
-    hits, buried = np.zeros((_AXES, 2, len(points))), np.zeros(len(points))
+    hits, within = np.zeros((_AXES, 2, len(points))), np.zeros(len(lines))
+    is_covered = np.zeros(len(lines), np.bool_)
     for axis in range(_AXES):
         found = find_crossings(points, surfaces, axis)
         is_after = found.at > lines[found.line, axis]
@@ -106,7 +141,10 @@ def _cast(points: Sequence[Array], surfaces: Sequence[Surface]) -> tuple[Array, 
             # A ray that leaves the material more often than it enters it starts within.
             leaves = np.bincount(line, sign * orientation[line] * np.sign(found.faces[is_ahead]), len(lines))
             hits[axis, place] = np.bincount(pair[is_hit], minlength=len(points)) / count
-            buried += np.bincount(pair[leaves > 0], minlength=len(points)) / count
+            within += leaves > 0
+            # The last rays go up.
+            is_covered = is_hit
+    buried = np.bincount(pair, within * is_covered, len(points)) / count
     return hits, buried / (2 * _AXES)
 
 

@@ -120,6 +120,7 @@ class AttachedRule:
     max_hanging_gap: float
     mount_preference: float
     min_bearing_ratio: float
+    min_backed: float
     min_borne: float
     min_clearance: float
     max_plinth: float
