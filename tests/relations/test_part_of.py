@@ -144,15 +144,20 @@ class TestFitted:
         assert list(parts((cabinet, "KitchenCabinet"), (door, "Door"))) == [("/cab/door", "/cab")]
 
 
-def test_a_door_is_a_part_of_its_frame():
+def test_a_door_is_a_part_of_its_frame_and_still_connects_rooms():
     scene = make_scene(
-        thing("/House/door_frame", (0, 0, 0), (1, 0.2, 2.1)),
-        thing("/House/door", (0.05, 0.05, 0), (0.9, 0.04, 2.05)),
-        thing("/House/door_handle", (0.1, -0.05, 1), (0.12, 0.1, 0.03)),
+        thing("/House/bedroom", (0, -4, 0), (4, 4, 2.5)),
+        thing("/House/kitchen", (0, 0.2, 0), (4, 4, 2.5)),
+        thing("/House/wall", (0, 0, 0), (4, 0.2, 2.5)),
+        thing("/House/door_frame", (1, 0, 0), (1, 0.2, 2.1)),
+        thing("/House/door", (1.05, 0.05, 0), (0.9, 0.04, 2.05)),
+        thing("/House/door_handle", (1.1, -0.05, 1), (0.12, 0.1, 0.03)),
     )
     tbox = load_home_tbox()
-    found = find_relations(scene, tbox, ground(scene, tbox), RelationOptions(kinds=("part-of",)))
-    assert {(r.target, r.anchor) for r in found} == {
-        ("/House/door", "/House/door_frame"),
-        ("/House/door_handle", "/House/door"),
+    found = find_relations(scene, tbox, ground(scene, tbox), RelationOptions(kinds=("part-of", "connects")))
+    assert {(r.target, r.kind, r.anchor) for r in found} == {
+        ("/House/door", "part-of", "/House/door_frame"),
+        ("/House/door_handle", "part-of", "/House/door"),
+        ("/House/door", "connects", "/House/bedroom"),
+        ("/House/door", "connects", "/House/kitchen"),
     }

@@ -114,8 +114,9 @@ class _Finder:
     def _rooms(self, wholes: Indices) -> Iterator[Links]:
         found = find_rooms(self.scene.objects, self.boxed, self.classes, self.rules.room)
         openings = find_openings(self.boxed, self.classes, self.rules.room_plan)
-        # The doors of furniture.
-        fixed = openings[wholes[openings] < 0]
+        # Not the doors of furniture.
+        is_frame = self.classes.are_in("frames")[self.boxed.scene_index]
+        fixed = openings[(wholes[openings] < 0) | is_frame[wholes[openings]]]
         if len(found.boxes.number):
             self.groups = found.groups
             yield found.links

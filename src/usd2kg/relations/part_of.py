@@ -114,7 +114,7 @@ def _object_at(path: str, number: dict[str, int]) -> int | None:
 
 def _fitted(scene: Scene, boxed: BoxedObjects, classes: ClassMembership, is_free: Mask, rule: PartOfRule) -> Links:
     is_front, is_handle = classes.are_in("fronts")[boxed.scene_index], classes.are_in("handles")[boxed.scene_index]
-    is_body = classes.are_in("bodies")[boxed.scene_index] & ~is_front & ~is_handle
+    is_body = (classes.are_in("bodies") | classes.are_in("frames"))[boxed.scene_index] & ~is_front & ~is_handle
     parts = np.flatnonzero((is_front | is_handle) & is_free[boxed.scene_index])
     wholes = np.flatnonzero(is_body | is_front)
     above = [obj.prim_path.rpartition("/")[0] for obj in boxed.objects]

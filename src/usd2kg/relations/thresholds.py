@@ -284,6 +284,7 @@ class ClassLists:
     not_wholes: tuple[str, ...]
     fronts: tuple[str, ...]
     bodies: tuple[str, ...]
+    frames: tuple[str, ...]
     handles: tuple[str, ...]
     containment_disposition: str
 
