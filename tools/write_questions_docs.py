@@ -28,6 +28,7 @@ _EXAMPLES = {
     "moves-along": {"thing": "saucer_1"},
     "nearest": {"thing": "toaster", "class": "cup"},
     "reach": {"position": "-1.5 0.4 1.1", "radius": "25 cm"},
+    "route": {"thing": "refrigerator", "other": "KitchenDining"},
     "same-surface": {"thing": "fruitBowl"},
     "support-chain": {"thing": "apple_1"},
     "to-open": {"thing": "refrigerator"},

@@ -11,8 +11,8 @@ from usd2kg.query.questions import list_questions
 ROOT = "/apartment/Geometry/apartment_root"
 ASKED = {
     "above", "alike", "below", "close-to", "connects", "contents", "count", "graspable", "heavy-near", "hold-liquid",
-    "joints", "moves-along", "nearest", "reach", "same-surface", "support-chain", "to-open", "unsure", "ways-into",
-    "which-where",
+    "joints", "moves-along", "nearest", "reach", "route", "same-surface", "support-chain", "to-open", "unsure",
+    "ways-into", "which-where",
 }  # fmt: skip
 
 
@@ -60,6 +60,7 @@ class TestPlaces:
         # The flat has no doors or windows in its walls.
         assert ask(apartment, "ways-into", thing=f"{ROOT}/kitchen_root") == []
         assert ask(apartment, "connects", thing="cabinet4_door_bottom") == []
+        assert ask(apartment, "route", thing=f"{ROOT}/kitchen_root", other="coffee_table") == []
 
     def test_reaches_objects_from_above_the_coffee_table(self, apartment: GraphStore):
         found = ask(apartment, "reach", position="16.6 2.8 0.5", radius="50 cm")

@@ -34,6 +34,25 @@ def test_what_a_door_connects(flat: GraphStore):
     assert [row[1] for row in ask_offline(flat, "Where does door_front lead to?").answer.rows] == ["room 1"]
 
 
+@pytest.mark.parametrize(
+    "question",
+    [
+        "How do I get from the sofa to the bed?",
+        "route from room 1 to room 2",
+        "How can the robot drive to the bed from room 1?",
+    ],
+)
+def test_the_route_between_rooms_or_things_in_them(flat: GraphStore, question: str):
+    found = ask_offline(flat, question).answer
+    assert found.columns == ("step", "object", "path", "room", "length_m")
+    assert [(row[1], row[3]) for row in found.rows] == [("door_bedroom", "room 2")]
+
+
+def test_there_is_no_route_within_a_room_or_through_a_door_to_the_outside(flat: GraphStore):
+    assert flat.answer("route", {"thing": "sofa", "other": "room 1"}).rows == ()
+    assert flat.answer("route", {"thing": "sofa", "other": "door_front"}).rows == ()
+
+
 def test_the_doors_of_a_room_and_where_they_lead(flat: GraphStore):
     found = ask_offline(flat, "Which doors lead into room 1?").answer
     assert [(row[0], row[3]) for row in found.rows] == [("door_bedroom", "room 2"), ("door_front", None)]

@@ -40,7 +40,7 @@ class ExampleQuery:
 def make_examples(store: ox.Store) -> tuple[ExampleQuery, ...]:
     """Return the ready questions as queries, with each parameter replaced by a term of the store or its default.
 
-    Questions about relations or values that the store lacks are left out.
+    Questions about relations or values that the store lacks are left out, and those about two objects.
     """
     thing = _first(store, _SUPPORT) or _first(store, _OBJECT)
     terms = {
@@ -48,7 +48,8 @@ def make_examples(store: ox.Store) -> tuple[ExampleQuery, ...]:
         "class": _first(store, _CLASS),
         "position": None if thing is None else _first(store, _POSITION.format(object=thing)),
     }
-    questions = sorted(list_questions(), key=lambda question: question.id != _FIRST)
+    about_one = [q for q in list_questions() if [p.kind for p in q.parameters].count("object") < 2]
+    questions = sorted(about_one, key=lambda question: question.id != _FIRST)
     return tuple(example for q in questions if (example := _fill(store, q, terms)) is not None)
 
 

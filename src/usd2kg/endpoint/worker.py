@@ -45,7 +45,7 @@ def main(arguments: list[str]) -> None:
 
 def serve_requests(dataset: Dataset, limits: EndpointLimits, requests: BinaryIO, answers: BinaryIO) -> None:
     """Answer each request; the first line written reports that the process is ready."""
-    functions = make_functions(BodyIndex(dataset))
+    functions = make_functions(dataset, BodyIndex(dataset))
     _write(answers, {"ready": True}, b"")
     for line in requests:
         _terminate_after(limits.seconds + limits.orphan_grace_s)

@@ -1,4 +1,4 @@
-"""SPARQL functions for distances, extents and joint motions: positions are text, which SPARQL cannot compute with.
+"""SPARQL functions for distances, extents, joint motions and routes, which SPARQL cannot compute from text.
 
 Objects are measured by their boxes, large hollow ones by those of their walls. A function is unbound for an object
 without a box and for wrong arguments.
@@ -11,7 +11,8 @@ import pyoxigraph as ox
 
 from usd2kg.query.bodies import BodyIndex
 from usd2kg.query.body_table import Body, parse_vector
-from usd2kg.query.dataset import FUNCTION_NAMESPACE
+from usd2kg.query.dataset import FUNCTION_NAMESPACE, Dataset
+from usd2kg.query.routes import RouteFinder, Step
 from usd2kg.query.settings import SWEEP
 from usd2kg.query.sweep import find_obstacles
 
@@ -29,6 +30,9 @@ FUNCTIONS = {
     "sizeDifference": "(object, object): largest difference of their extents, as a share of the larger",
     "mass": "(object): kilograms",
     "opensInto": "(joint, object): how far the joint opens until its moving part hits the object, radians or metres",
+    "routeStep": "(door, start, end): number of a door on the shortest route between two rooms, or objects in rooms",
+    "routeRoom": "(door, start, end): the room that the door leads into on that route",
+    "routeLength": "(door, start, end): metres from the first door of that route, straight from door to door",
     "tilts": "(joint): whether the joint tilts what lies on its moving part, because it turns about a level axis",
 }
 """Function → its arguments and result."""
@@ -36,9 +40,13 @@ _DECIMALS = 4
 """Decimals of all results; 0.1 mm is finer than any scene is modelled."""
 
 
-def make_functions(bodies: BodyIndex) -> dict[ox.NamedNode, Function]:
+def make_functions(dataset: Dataset, bodies: BodyIndex) -> dict[ox.NamedNode, Function]:
     """Return the functions over the objects of a graph, which are read at the first call."""
-    measure = _Measure(bodies)
+    measure, routes = _Measure(bodies), RouteFinder(dataset, bodies)
+
+    def step(door: Term, start: Term, end: Term) -> Step | None:
+        return routes.find(_text(start), _text(end)).get(_text(door))
+
     functions: dict[str, Function] = {
         "gap": lambda a, b: measure.compare(a, b, _gap),
         "clearance": lambda a, b: measure.compare(a, b, _clearance),
@@ -47,6 +55,9 @@ def make_functions(bodies: BodyIndex) -> dict[ox.NamedNode, Function]:
         "sizeDifference": lambda a, b: measure.compare(a, b, _size_difference),
         "mass": lambda a: _literal(measure.body(a).mass),
         "opensInto": measure.opens_into,
+        "routeStep": lambda *terms: ox.Literal(found.number) if (found := step(*terms)) else None,
+        "routeRoom": lambda *terms: ox.NamedNode(found.room) if (found := step(*terms)) else None,
+        "routeLength": lambda *terms: _literal(found.length) if (found := step(*terms)) else None,
         "tilts": measure.tilts,
     }
     return {ox.NamedNode(FUNCTION_NAMESPACE + name): function for name, function in functions.items()}

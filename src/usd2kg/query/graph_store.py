@@ -45,7 +45,7 @@ class GraphStore:
         self._dataset = dataset
         self._source = source
         self._bodies = BodyIndex(dataset)
-        self._functions = make_functions(self._bodies)
+        self._functions = make_functions(dataset, self._bodies)
         self._facts = SceneFacts(dataset, self._bodies)
         self._keeper = keeper
 

@@ -84,7 +84,15 @@ class CacheSettings:
     abandoned_h: float
 
 
+@dataclass(frozen=True)
+class RouteSettings:
+    """Which openings people walk through; lengths are metres."""
+
+    min_door_height: float
+
+
 SWEEP = read_settings("query", "sweep", SweepSettings)
+ROUTE = read_settings("query", "route", RouteSettings)
 LOOKUP = read_settings("query", "lookup", LookupSettings)
 WORDS = read_settings("query", "words", WordSettings)
 DIRECTIONS = read_settings("query", "directions", DirectionSettings)
