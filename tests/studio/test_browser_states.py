@@ -89,6 +89,11 @@ def test_an_object_without_a_suggestion_is_not_confirmed_but_decided(
         expect(page.locator(".queue-row").first).to_contain_text("no class, unreadable")
         page.keyboard.press("Control+Shift+z")
         expect(page.locator(".queue-row")).to_have_count(3)
+
+        assert badge(page, "Cup_2") == "Corrected"
+        page.keyboard.press("Backspace")
+        expect(page.locator(".object-panel .badge")).to_have_text("Unreadable")
+        expect(page.locator(".queue-row").first).to_contain_text("no class, unreadable")
         close_page(page)
     with (folder / "decisions.sssom.tsv").open(encoding="utf-8") as file:
         written = list(csv.DictReader((line for line in file if not line.startswith("#")), delimiter="\t"))

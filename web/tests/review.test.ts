@@ -4,7 +4,7 @@ import { ApiFailure } from "../src/api/client";
 import { BINDINGS, findBinding, keyName } from "../src/keys/bindings";
 import { focusOf } from "../src/state/candidates";
 import { findAgain, groupAfter, withoutObjects } from "../src/state/queue";
-import { applyStates, durationText, isOpen, predictStates, superclass } from "../src/state/review";
+import { applyStates, durationText, isOpen, predictStates, reasonsForNoClass, superclass } from "../src/state/review";
 import { Store } from "../src/state/store";
 import { occluders } from "../src/viewer/appearance";
 import { cutAway, findHolders } from "../src/viewer/cutaway";
@@ -25,7 +25,18 @@ describe("states", () => {
     expect(judged("choose", 1)).toEqual(["confirmed", 1]);
     expect(judged("no-class")).toEqual(["no-class", -1]);
     expect(judged("unsure")).toEqual(["unsure", 1]);
-    expect(judged("clear")).toEqual(["suggested", 1]);
+  });
+
+  it("leaves it to the server what an object is after its decision is cleared", () => {
+    expect(predictStates(makeStates().states, [1, 2], "clear")).toEqual([]);
+  });
+
+  it("names each reason for which a grounder gave no class once, in a fixed order", () => {
+    const reasons = ["failed", "suggested", "refused", "failed"] as const;
+    const states = reasons.map((state, object) => makeState(object, { state }));
+    expect(reasonsForNoClass(states, [0, 1, 2, 3])).toEqual(["refused", "failed"]);
+    expect(reasonsForNoClass(states, [1])).toEqual([]);
+    expect(reasonsForNoClass(states, [])).toEqual([]);
   });
 
   it("leaves unsure and failed objects open", () => {
@@ -61,6 +72,20 @@ describe("store", () => {
     await store.decide([1], "confirm");
     expect([store.states.value[1]?.state, store.saving.value]).toEqual(["suggested", "failed"]);
     expect(store.notices.value.at(-1)?.text).toBe("no space left");
+  });
+
+  it("does not confirm an object without a suggestion", async () => {
+    const post = vi.fn();
+    const store = makeStore(post);
+    await store.loadQueue();
+    const change = { version: 1, reviewer: "", page: "p", message: "" };
+    store.receive({ ...change, states: [makeState(3, { state: "failed", suggested: -1, class: -1 })] });
+    store.goTo("/K/wall");
+    findBinding("Enter")?.run(store, view, "Enter");
+    expect(store.notices.value.at(-1)?.text).toBe("no suggestion to confirm. Choose a class with /");
+    await store.decide([2, 3], "confirm");
+    expect(store.notices.value.at(-1)?.text).toMatch(/^1 of 2 objects: no suggestion/);
+    expect([post.mock.calls.length, store.groupId.value, store.saving.value]).toEqual([0, "/K/wall", "saved"]);
   });
 
   it("leaves unticked members out", async () => {

@@ -17,6 +17,11 @@ export function reasonsForNoClass(states: readonly ObjectState[], objects: reado
   return NO_CLASS_REASONS.filter((reason) => found.has(reason));
 }
 
+/** Returns the objects for which no class is suggested. */
+export function withoutSuggestion(states: readonly ObjectState[], objects: readonly ObjectIndex[]): ObjectIndex[] {
+  return objects.filter((object) => (states[object]?.suggested ?? -1) < 0);
+}
+
 /** Returns all states with some replaced. */
 export function applyStates(states: readonly ObjectState[], changed: readonly ObjectState[]): readonly ObjectState[] {
   if (changed.length === 0) return states;
@@ -25,20 +30,28 @@ export function applyStates(states: readonly ObjectState[], changed: readonly Ob
   return found;
 }
 
-/** Returns the states that the server will answer to a decision, so that the page need not wait. */
+/**
+ * Returns the states that the server will answer to a decision, so that the page need not wait; none for `clear`, since
+ * only the server knows what an object was before any decision: suggested, refused, decided by an earlier run.
+ */
 export function predictStates(
   states: readonly ObjectState[],
   objects: readonly ObjectIndex[],
   action: DecisionAction,
   chosen?: ClassIndex,
 ): ObjectState[] {
+  if (action === "clear") return [];
   return objects.flatMap((object) => {
     const state = states[object];
     return state === undefined ? [] : [{ ...state, ...judge(state, action, chosen), proposal: "" }];
   });
 }
 
-function judge(state: ObjectState, action: DecisionAction, chosen = -1): Pick<ObjectState, "state" | "class"> {
+function judge(
+  state: ObjectState,
+  action: Exclude<DecisionAction, "clear">,
+  chosen = -1,
+): Pick<ObjectState, "state" | "class"> {
   switch (action) {
     case "confirm":
       return { state: "confirmed", class: state.suggested };
@@ -48,8 +61,6 @@ function judge(state: ObjectState, action: DecisionAction, chosen = -1): Pick<Ob
       return { state: "no-class", class: -1 };
     case "unsure":
       return { state: "unsure", class: state.suggested };
-    case "clear":
-      return { state: "suggested", class: state.suggested };
   }
 }
 

@@ -22,9 +22,10 @@ import type {
 import { isAuditOf } from "./audit";
 import type { ColorMode } from "./colors";
 import { type Filters, filterObjects, isFiltering, NO_FILTERS } from "./filters";
-import { buildModel, classLabel, conceptLabel, type SceneModel } from "./model";
+import { describeDecision } from "./messages";
+import { buildModel, type SceneModel } from "./model";
 import { findAgain, groupAfter, withoutObjects } from "./queue";
-import { isOpen, predictStates } from "./review";
+import { isOpen, predictStates, withoutSuggestion } from "./review";
 import { storedReviewer, storeReviewer } from "./reviewer";
 import { StateTable } from "./stateTable";
 
@@ -268,8 +269,10 @@ export class Store {
     details: DecisionDetails = {},
   ): Promise<void> {
     if (objects.length === 0 || this.hasJustMoved()) return;
-    if (action === "confirm" && objects.some((object) => (this.states.value[object]?.suggested ?? -1) < 0)) {
-      this.notify("There is no suggestion to confirm. Choose a class with /");
+    const without = action === "confirm" ? withoutSuggestion(this.states.value, objects) : [];
+    if (without.length > 0) {
+      const which = objects.length === 1 ? "" : `${without.length} of ${objects.length} objects: `;
+      this.notify(`${which}no suggestion to confirm. Choose a class with /`);
       return;
     }
     const forget = this.table.expect(predictStates(this.states.value, objects, action, chosen));
@@ -287,7 +290,7 @@ export class Store {
       ...(isAudit ? { audit: true } : {}),
     });
     forget();
-    if (reply !== null) this.notify(describe(this.model, reply, objects.length, action, chosen, details));
+    if (reply !== null) this.notify(describeDecision(this.model, reply, objects.length, action, chosen, details));
     await this.loadQueue();
     const again = reply === null && group !== null ? findAgain(this.groups.value, group) : null;
     if (again !== null) this.goTo(again.id);
@@ -416,33 +419,4 @@ export class Store {
 /** Returns a random name; `crypto.randomUUID` is missing where the page comes over plain HTTP from another machine. */
 function randomId(): string {
   return Array.from(crypto.getRandomValues(new Uint32Array(4)), (part) => part.toString(16).padStart(8, "0")).join("");
-}
-
-function describe(
-  model: SceneModel,
-  reply: DecisionReply,
-  count: number,
-  action: DecisionAction,
-  chosen: ClassIndex | undefined,
-  { concept, proposal }: DecisionDetails,
-): string {
-  const things =
-    count === 1 ? (model.data.objects.name[reply.states[0]?.object ?? -1] ?? "1 object") : `${count} objects`;
-  const classes = new Set(reply.states.map((state) => state.class));
-  const label = classLabel(model, chosen ?? reply.states[0]?.class ?? -1);
-  switch (action) {
-    case "confirm":
-      return classes.size > 1 ? `Confirmed ${things} of ${classes.size} classes` : `Confirmed ${things} as ${label}`;
-    case "choose":
-      if (proposal !== undefined) return `Proposed “${proposal}” below ${label} for ${things}`;
-      return concept === undefined
-        ? `Set ${things} to ${label}`
-        : `Every “${conceptLabel(model, concept)}” is ${label}: set ${things}`;
-    case "unsure":
-      return `Marked ${things} as unsure`;
-    case "no-class":
-      return `No class fits ${things}`;
-    case "clear":
-      return `Cleared ${things}`;
-  }
 }
