@@ -370,10 +370,22 @@ describe("view", () => {
 
   it("finds what hides an object: what is before it, not what is behind", () => {
     const eye = { position: new Vector3(0.45, -5, 0.75), direction: new Vector3(0, -1, 0) };
-    expect([...occluders(scene, [1], eye)]).toEqual([3]);
+    const hidesNothing = () => false;
+    expect([...occluders(scene, [1], eye, hidesNothing)]).toEqual([3]);
     const above = { position: new Vector3(0.45, 0.45, 5), direction: new Vector3(0, 0, 1) };
-    expect([...occluders(scene, [1], above)]).toEqual([]);
+    expect([...occluders(scene, [1], above, hidesNothing)]).toEqual([]);
     const below = { position: new Vector3(0.45, 0.45, -5), direction: new Vector3(0, 0, -1) };
-    expect([...occluders(scene, [1], below)]).toEqual([0]);
+    expect([...occluders(scene, [1], below, hidesNothing)]).toEqual([0]);
+  });
+
+  it("asks the meshes of what holds the viewer, such as the walls of a house", () => {
+    const eye = { position: new Vector3(0.45, -1.95, 0.75), direction: new Vector3(0, -1, 0) };
+    const asked: number[] = [];
+    const found = occluders(scene, [1], eye, (object, ray, distance) => {
+      asked.push(object);
+      expect([ray.direction.y, distance]).toEqual([expect.closeTo(1), expect.closeTo(2.4)]);
+      return true;
+    });
+    expect([asked, [...found]]).toEqual([[3], [3]]);
   });
 });

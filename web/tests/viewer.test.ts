@@ -1,9 +1,9 @@
-import { Raycaster, Vector3 } from "three";
+import { BufferAttribute, Matrix4, PlaneGeometry, Ray, Raycaster, Vector3 } from "three";
 import { describe, expect, it } from "vitest";
 import { ApiFailure, type Client } from "../src/api/client";
 import { missingPicture, ThumbnailCache } from "../src/panels/Thumbnail";
 import { BoxBatch, boxMatrix } from "../src/viewer/boxes";
-import type { Appearance } from "../src/viewer/meshes";
+import { type Appearance, MeshBatches } from "../src/viewer/meshes";
 import { makeScene } from "./scene";
 
 const PLAIN: Appearance = { isVisible: true, color: null, opacity: 1 };
@@ -41,6 +41,36 @@ describe("clicks on boxes", () => {
 
   it("miss what is cut away", () => {
     expect(pick([PLAIN, PLAIN], 1.5, 1.2)).toBeNull();
+  });
+});
+
+describe("the meshes of one object", () => {
+  /** Walls of one object at y = 2 and y = 4, of one geometry, and another object at y = 3. */
+  const meshes = new MeshBatches();
+  const wall = new PlaneGeometry(10, 10).rotateX(Math.PI / 2);
+  const other = new PlaneGeometry(10, 10).rotateX(Math.PI / 2);
+  for (const geometry of [wall, other]) {
+    const count = geometry.attributes["position"]?.count ?? 0;
+    geometry.setAttribute("color", new BufferAttribute(new Float32Array(4 * count).fill(1), 4));
+  }
+  const part = (geometry: PlaneGeometry, y: number, object: number) => ({
+    geometry,
+    texture: null,
+    matrix: new Matrix4().makeTranslation(0, y, 0),
+    object,
+  });
+  meshes.add([part(other, 3, 1), part(wall, 2, 0), part(wall, 4, 0)]);
+  const along = (y: number) => new Ray(new Vector3(0, y, 0), new Vector3(0, 1, 0));
+
+  it("are met only before the distance, and whether they are visible or not", () => {
+    expect(meshes.meets(0, along(0), 2.5)).toBe(true);
+    expect(meshes.meets(0, along(0), 1.5)).toBe(false);
+    expect(meshes.meets(0, along(2.5), 1)).toBe(false);
+    expect(meshes.meets(0, along(2.5), 2)).toBe(true);
+    expect(meshes.meets(1, along(2.5), 1)).toBe(true);
+    expect(meshes.meets(2, along(0), 10)).toBe(false);
+    meshes.paint(() => ({ ...PLAIN, isVisible: false }), true);
+    expect(meshes.meets(0, along(0), 2.5)).toBe(true);
   });
 });
 

@@ -97,7 +97,8 @@ function pick(store: Store, object: ObjectIndex | null, isAdding: boolean): void
 function follow(store: Store, viewer: Viewer, setLegend: (legend: LegendEntry[]) => void): (() => void)[] {
   const before = computed<ReadonlySet<ObjectIndex>>(() => {
     const watched = store.selection.value.slice(0, MAX_WATCHED);
-    return store.isCutAway.value ? occluders(store.model.data, watched, viewer.eye.value) : new Set();
+    if (!store.isCutAway.value) return new Set();
+    return occluders(store.model.data, watched, viewer.eye.value, (...ray) => viewer.meets(...ray));
   });
   const { supports, stop } = followSupports(store);
   return [

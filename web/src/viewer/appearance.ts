@@ -45,8 +45,18 @@ export function appearanceOf(
   };
 }
 
-/** Returns the objects whose boxes hide the middle of one of the watched objects, or hold it: cabinets, doors, lids. */
-export function occluders(data: SceneData, watched: readonly ObjectIndex[], eye: Eye): Set<ObjectIndex> {
+/**
+ * Returns the objects that hide the middle of one of the watched objects, or hold it: cabinets, doors, lids.
+ *
+ * @param meets whether a ray meets the meshes of an object nearer than a distance. It decides about what holds the
+ *   viewer, such as the walls of a house: the inside of its box is mostly empty.
+ */
+export function occluders(
+  data: SceneData,
+  watched: readonly ObjectIndex[],
+  eye: Eye,
+  meets: (object: ObjectIndex, ray: Ray, distance: number) => boolean,
+): Set<ObjectIndex> {
   const found = new Set<ObjectIndex>();
   const boxes = data.objects.box;
   const box = new Box3();
@@ -61,8 +71,10 @@ export function occluders(data: SceneData, watched: readonly ObjectIndex[], eye:
       if (other === null || index === object) return;
       box.min.set(other[0], other[1], other[2]);
       box.max.set(other[3], other[4], other[5]);
-      // What holds the viewer, such as a room, hides nothing.
-      if (box.containsPoint(eye.position)) return;
+      if (box.containsPoint(eye.position)) {
+        if (meets(index, ray, distance)) found.add(index);
+        return;
+      }
       if (ray.intersectBox(box, hit) !== null && hit.distanceTo(eye.position) < distance) found.add(index);
     });
   }

@@ -2,14 +2,16 @@
 
 import {
   BatchedMesh,
-  type BufferGeometry,
+  BufferGeometry,
   DoubleSide,
   type Intersection,
   type Matrix4,
   Mesh,
   MeshLambertMaterial,
   type Object3D,
-  type Raycaster,
+  type Ray,
+  Raycaster,
+  Sphere,
   type Texture,
   Vector4,
 } from "three";
@@ -169,6 +171,22 @@ export class MeshBatches {
         return { object: instance.object, distance, isGhost: instance.isGhost };
       }),
     );
+  }
+
+  /** Returns whether a ray meets an object, visible or not, nearer than a distance. */
+  meets(object: ObjectIndex, ray: Ray, distance: number): boolean {
+    const raycaster = new Raycaster(ray.origin, ray.direction, 0, distance);
+    return (this.ofObject.get(object) ?? []).some(({ batch, id }) => {
+      const part = new Mesh(new BufferGeometry(), batch.material);
+      const geometry = batch.getGeometryIdAt(id);
+      const range = batch.getGeometryRangeAt(geometry);
+      if (range === null) return false;
+      part.geometry.attributes = batch.geometry.attributes;
+      part.geometry.setIndex(batch.geometry.index).setDrawRange(range.start, range.count);
+      part.geometry.boundingSphere = batch.getBoundingSphereAt(geometry, new Sphere());
+      batch.getMatrixAt(id, part.matrixWorld);
+      return raycaster.intersectObject(part, false).length > 0;
+    });
   }
 
   dispose(): void {

@@ -6,6 +6,7 @@ import {
   DirectionalLight,
   HemisphereLight,
   Plane,
+  type Ray,
   Raycaster,
   Scene,
   type Texture,
@@ -189,6 +190,11 @@ export class Viewer {
   frame(objects: readonly ObjectIndex[] | null, view: ViewName | null = null): void {
     const bounds = this.boundsOf(objects);
     if (bounds !== null) this.cameras.frame(objects === null ? bounds : withSurroundings(bounds), view);
+  }
+
+  /** Returns whether a ray meets the meshes of an object nearer than a distance. */
+  meets(object: ObjectIndex, ray: Ray, distance: number): boolean {
+    return this.meshes.meets(object, ray, distance);
   }
 
   /** Hides everything above a height; `share` is between 0 (floor) and 1 (nothing hidden). */
