@@ -159,3 +159,49 @@ def test_relations_of_the_selection_are_drawn_with_their_numbers(browser: Browse
         expect(numbered).to_have_count(0)
         expect(labels.get_by_text("on", exact=True)).to_have_count(1)
         close_page(page)
+
+
+def camera_of(page: Page) -> dict[str, list[float]]:
+    """Return the position and the target of the camera, (3,), metres."""
+    found: dict[str, list[float]] = page.evaluate("""() => {
+      const { active, controls } = window.studioViewer.cameras;
+      return { position: active.position.toArray(), target: controls.target.toArray() };
+    }""")
+    return found
+
+
+def test_the_keyboard_orbits_pans_and_zooms(browser: Browser, stage: Path, tmp_path: Path) -> None:
+    with running_studio(stage, tmp_path / "project") as studio:
+        page = open_page(browser, studio)
+        start = camera_of(page)
+
+        def offset(camera: dict[str, list[float]]) -> NDArray[np.float64]:
+            return np.array(camera["position"]) - np.array(camera["target"])
+
+        page.keyboard.press("Shift+ArrowRight")
+        page.keyboard.press("Shift+ArrowUp")
+        orbited = camera_of(page)
+        assert orbited["target"] == pytest.approx(start["target"])
+        assert np.linalg.norm(offset(orbited)) == pytest.approx(np.linalg.norm(offset(start)))
+        # From the front left to the right is counterclockwise, seen from above.
+        assert np.cross(offset(start), offset(orbited))[2] > 0
+        assert orbited["position"][2] > start["position"][2]
+
+        page.keyboard.press("Control+ArrowRight")
+        panned = camera_of(page)
+        assert panned["target"] != pytest.approx(orbited["target"])
+        assert offset(panned) == pytest.approx(offset(orbited))
+
+        page.keyboard.press("+")
+        page.keyboard.press("=")
+        assert np.linalg.norm(offset(camera_of(page))) < 0.8 * np.linalg.norm(offset(panned))
+        for _ in range(2):
+            page.keyboard.press("-")
+        assert camera_of(page)["position"] == pytest.approx(panned["position"])
+
+        page.keyboard.press("t")
+        page.wait_for_timeout(500)
+        zoom = page.evaluate("window.studioViewer.cameras.active.zoom")
+        page.keyboard.press("+")
+        assert page.evaluate("window.studioViewer.cameras.active.zoom") > zoom
+        close_page(page)

@@ -1,9 +1,7 @@
 import { describe, expect, it, vi } from "vitest";
 import { findBinding } from "../src/keys/bindings";
 import { accuracyText, auditText, isAuditing } from "../src/state/audit";
-import { makeStore, QUEUE, reply } from "./fakeStore";
-
-const view = { frame: () => undefined, frameAll: () => undefined, look: () => undefined };
+import { makeStore, QUEUE, reply, VIEW as view } from "./fakeStore";
 
 describe("audit", () => {
   it("marks verdicts on the shown object of the sample only", async () => {

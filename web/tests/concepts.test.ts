@@ -1,10 +1,8 @@
 import { describe, expect, it, vi } from "vitest";
 import { findBinding } from "../src/keys/bindings";
 import { objectsOfConcept, offeredClasses, openConcept } from "../src/state/concepts";
-import { makeStore, reply } from "./fakeStore";
+import { makeStore, reply, VIEW as view } from "./fakeStore";
 import { makeState, makeStates } from "./scene";
-
-const view = { frame: () => undefined, frameAll: () => undefined, look: () => undefined };
 
 describe("concepts", () => {
   it("has open objects and decided ones", () => {

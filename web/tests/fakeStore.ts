@@ -2,8 +2,12 @@
 
 import type { Client } from "../src/api/client";
 import type { DecisionReply, ObjectPage, Queue } from "../src/api/types";
+import type { ViewCommands } from "../src/keys/bindings";
 import { Store } from "../src/state/store";
 import { makeScene, makeState, makeStates } from "./scene";
+
+const ignore = () => undefined;
+export const VIEW: ViewCommands = { frame: ignore, frameAll: ignore, look: ignore, steer: ignore };
 
 export const QUEUE: Queue = {
   groups: [

@@ -1,10 +1,8 @@
 import { describe, expect, it } from "vitest";
 import { findBinding } from "../src/keys/bindings";
 import { listProposals, proposedLabel } from "../src/state/proposals";
-import { makeStore, reply } from "./fakeStore";
+import { makeStore, reply, VIEW as view } from "./fakeStore";
 import { makeState } from "./scene";
-
-const view = { frame: () => undefined, frameAll: () => undefined, look: () => undefined };
 
 describe("proposed classes", () => {
   it("hold the objects of one label and superclass", () => {

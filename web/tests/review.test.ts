@@ -8,10 +8,8 @@ import { applyStates, durationText, isOpen, predictStates, reasonsForNoClass, su
 import { Store } from "../src/state/store";
 import { occluders } from "../src/viewer/appearance";
 import { cutAway, findHolders } from "../src/viewer/cutaway";
-import { makeStore, QUEUE, reply } from "./fakeStore";
+import { makeStore, QUEUE, reply, VIEW as view } from "./fakeStore";
 import { makeScene, makeState, makeStates } from "./scene";
-
-const view = { frame: () => undefined, frameAll: () => undefined, look: () => undefined };
 
 describe("states", () => {
   it("predicts what the server answers", () => {
@@ -332,6 +330,23 @@ describe("keys", () => {
     findBinding("2")?.run(store, view, "2");
     await vi.waitFor(() => expect(sent).toHaveLength(1));
     expect(sent).toMatchObject([{ objects: [2, 1], action: "choose", class: 3, reviewer: "Ann" }]);
+  });
+
+  it("steer the camera with Shift, Ctrl and arrows, plus and minus", () => {
+    const steps: unknown[] = [];
+    const steering = { ...view, steer: (...step: unknown[]) => void steps.push(step) };
+    const store = makeStore(async <T>() => reply([], {}) as T);
+    for (const key of ["Shift+ArrowLeft", "Shift+ArrowUp", "Ctrl+ArrowRight", "Ctrl+ArrowDown", "+", "=", "-"])
+      findBinding(key)?.run(store, steering, key);
+    expect(steps).toEqual([
+      ["orbit", -1, 0],
+      ["orbit", 0, 1],
+      ["pan", 1, 0],
+      ["pan", 0, -1],
+      ["zoom", 0, 1],
+      ["zoom", 0, 1],
+      ["zoom", 0, -1],
+    ]);
   });
 
   it("chooses the superclass", () => {

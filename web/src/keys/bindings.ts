@@ -12,6 +12,8 @@ export interface ViewCommands {
   frame(): void;
   frameAll(): void;
   look(view: "perspective" | "top" | "front" | "left"): void;
+  /** Moves the camera by steps to the right and up; a zoom by steps up is nearer. */
+  steer(movement: "orbit" | "pan" | "zoom", right: number, up: number): void;
 }
 
 export interface Binding {
@@ -197,6 +199,21 @@ export const BINDINGS: Binding[] = [
   { keys: ["Shift+F"], help: "View from the front", section: "View", run: (_, view) => view.look("front") },
   { keys: ["Shift+L"], help: "View from the left", section: "View", run: (_, view) => view.look("left") },
   {
+    keys: ["Shift+ArrowLeft", "Shift+ArrowRight", "Shift+ArrowUp", "Shift+ArrowDown"],
+    help: "Orbit: move around the target",
+    section: "View",
+    run: (_, view, key) => view.steer("orbit", ...directionOf(key)),
+  },
+  {
+    keys: ["Ctrl+ArrowLeft", "Ctrl+ArrowRight", "Ctrl+ArrowUp", "Ctrl+ArrowDown"],
+    help: "Pan: move along the picture",
+    section: "View",
+    run: (_, view, key) => view.steer("pan", ...directionOf(key)),
+  },
+  // A plus without Shift is an equals sign on many keyboards.
+  { keys: ["+", "="], help: "Zoom in", section: "View", run: (_, view) => view.steer("zoom", 0, 1) },
+  { keys: ["-"], help: "Zoom out", section: "View", run: (_, view) => view.steer("zoom", 0, -1) },
+  {
     keys: ["D"],
     help: "Open or close the drawer",
     section: "Page",
@@ -225,6 +242,13 @@ export const BINDINGS: Binding[] = [
     run: (store) => close(store),
   },
 ];
+
+/** Returns the steps to the right and up of a key such as `Shift+ArrowLeft`. */
+function directionOf(key: string): [number, number] {
+  if (key.endsWith("Left")) return [-1, 0];
+  if (key.endsWith("Right")) return [1, 0];
+  return [0, key.endsWith("Up") ? 1 : -1];
+}
 
 async function chooseCandidate(store: Store, number: number): Promise<void> {
   const targets = store.targets.value;

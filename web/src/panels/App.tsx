@@ -27,6 +27,7 @@ export function App({ store, firstPicture }: { store: Store; firstPicture: First
       frame: () => view.current?.frame(),
       frameAll: () => view.current?.frameAll(),
       look: (name) => view.current?.look(name),
+      steer: (...step) => view.current?.steer(...step),
     }),
     [],
   );

@@ -33,6 +33,9 @@ export function Help({ store }: { store: Store }) {
 }
 
 function shownKeys(keys: string[]): string[] {
-  const isRange = keys.length === 9;
-  return isRange ? ["1 … 9"] : keys.map((key) => key.replace("Arrow", "").replace("Escape", "Esc"));
+  if (keys.length === 9) return ["1 … 9"];
+  const isEachArrow = keys.length === 4 && keys.every((key) => key.includes("+Arrow"));
+  return isEachArrow
+    ? [(keys[0] ?? "").replace(/Arrow\w+/, "arrows")]
+    : keys.map((key) => key.replace("Arrow", "").replace("Escape", "Esc"));
 }

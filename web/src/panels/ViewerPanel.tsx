@@ -54,6 +54,7 @@ export function ViewerPanel({ store, view, firstPicture }: ViewerProps) {
       frame: () => viewer.frame(store.selection.value.length > 0 ? store.selection.value : null),
       frameAll: () => viewer.frame(null),
       look: (name) => viewer.frame(store.selection.value.length > 0 ? store.selection.value : null, name),
+      steer: (...step) => viewer.cameras.steer(...step),
     };
     const stop = follow(store, viewer, setLegend);
     void load(store, viewer, setLoading);

@@ -8,6 +8,8 @@ import { DEPTH, distanceTo, FIELD_OF_VIEW, middleOf, radiusOf, START_DIRECTION }
 export type ViewName = "perspective" | "top" | "front" | "left";
 
 const FLIGHT_MS = 280;
+/** Steps of the keys: radians, share of the height of the view, factor. */
+const KEY_STEP = { orbit: Math.PI / 24, pan: 0.08, zoom: 0.85 };
 const DIRECTIONS: Record<ViewName, Vector3> = {
   perspective: new Vector3(...START_DIRECTION),
   // Not exactly from above, where the direction of "up" on the screen would be undefined.
@@ -70,6 +72,21 @@ export class Cameras {
     this.controls.object = this.active;
     const position = center.clone().addScaledVector(direction, distance);
     this.fly(position, center, isInstant || this.active !== before);
+  }
+
+  /** Moves the viewer by steps to the right and up around the target, moves both, or goes nearer by steps up. */
+  steer(movement: "orbit" | "pan" | "zoom", right: number, up: number): void {
+    cancelAnimationFrame(this.flight);
+    const { controls } = this;
+    if (movement === "orbit") {
+      controls.rotateLeft(-right * KEY_STEP.orbit);
+      controls.rotateUp(up * KEY_STEP.orbit);
+    } else if (movement === "pan") {
+      const pixels = KEY_STEP.pan * (controls.domElement?.clientHeight ?? 0);
+      controls.pan(-right * pixels, up * pixels);
+    } else {
+      controls.dollyIn(KEY_STEP.zoom ** up);
+    }
   }
 
   private setOrthographicHeight(height: number): void {
