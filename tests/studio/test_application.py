@@ -169,6 +169,9 @@ def test_pictures_and_pages_of_objects(shared: Client):
     assert shared.ask("api/thumbnail/99.png").status == 404
     page = shared.ask(f"api/object/{CUP_2}").json()
     assert page["candidates"][0]["class"] == class_index(shared, "Cup")
+    evidence = {each["group"]: each for each in page["candidates"][0]["evidence"]}
+    assert "“cup” is the label of Cup" in evidence["name"]["explanation"]
+    assert evidence["size"]["likelihood_ratio"] > 1
     assert page["concept"]["label"] == "cup"
     relations = {(r["kind"], r["anchor"]) for r in page["relations"] if r["target"] == CUP_2}
     assert ("on", TABLE) in relations

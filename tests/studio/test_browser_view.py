@@ -205,3 +205,20 @@ def test_the_keyboard_orbits_pans_and_zooms(browser: Browser, stage: Path, tmp_p
         page.keyboard.press("+")
         assert page.evaluate("window.studioViewer.cameras.active.zoom") > zoom
         close_page(page)
+
+
+def test_each_candidate_has_its_evidence(browser: Browser, stage: Path, tmp_path: Path) -> None:
+    with running_studio(stage, tmp_path / "project") as studio:
+        page = open_page(browser, studio)
+        page.locator(".tree-row", has_text="Cup_2").click()
+        summary = page.get_by_label("Evidence for cup", exact=True)
+        expect(summary).to_contain_text("name 97 %")
+        expect(summary).to_contain_text("size ×")
+        sentence = page.locator(".candidate-evidence li", has_text="is the label of Cup")
+        expect(sentence).to_be_hidden()
+        summary.focus()
+        page.keyboard.press("Enter")
+        expect(sentence).to_be_visible()
+        # The key belonged to the summary, and decided nothing.
+        assert {state["state"] for state in studio.ask("api/states").json()["states"]} == {"suggested"}
+        close_page(page)

@@ -165,6 +165,7 @@ def test_files_follow_the_decisions_on_a_graph(graph: Path, tmp_path: Path):
         assert client.ask("api/sparql", {"query": query}).json()["objects"] == [THING]
         page = client.ask(f"api/object/{CUP_2}").json()
         assert [candidate["share"] for candidate in page["candidates"]] == [None] * len(page["candidates"])
+        assert all(candidate["evidence"] == [] for candidate in page["candidates"])
         assert "/Kitchen/Table" in {relation["anchor_path"] for relation in page["relations"]}
         assert 'u2k:primPath "/Kitchen/Cup_2"' in page["turtle"]
     tbox = load_home_tbox()

@@ -57,8 +57,8 @@ export function makeStore(post: Client["post"]): Store {
   const page = {
     object: 2,
     candidates: [
-      { class: 1, share: 0.6, taxonomy: [] },
-      { class: 3, share: 0.4, taxonomy: [] },
+      { class: 1, share: 0.6, taxonomy: [], evidence: [] },
+      { class: 3, share: 0.4, taxonomy: [], evidence: [] },
     ],
   };
   const client: Client = {

@@ -2,7 +2,7 @@ import { Vector3 } from "three";
 import { describe, expect, it, vi } from "vitest";
 import { ApiFailure } from "../src/api/client";
 import { BINDINGS, findBinding, keyName } from "../src/keys/bindings";
-import { focusOf } from "../src/state/candidates";
+import { evidenceText, focusOf } from "../src/state/candidates";
 import { findAgain, groupAfter, withoutObjects } from "../src/state/queue";
 import { applyStates, durationText, isOpen, predictStates, reasonsForNoClass, superclass } from "../src/state/review";
 import { Store } from "../src/state/store";
@@ -50,6 +50,26 @@ describe("states", () => {
 
   it("writes durations for people", () => {
     expect([20, 60, 3540, 7800].map(durationText)).toEqual(["under a minute", "1 min", "59 min", "2 h 10 min"]);
+  });
+});
+
+describe("evidence for a candidate", () => {
+  const of = (group: string, score: number | null, likelihood_ratio: number | null) =>
+    evidenceText({ group, explanation: "", score, likelihood_ratio });
+
+  it("is a share for words and votes, and a factor for size and place", () => {
+    expect([of("name", 0.966, null), of("neighbours", 0, null)]).toEqual(["name 97 %", "neighbours 0 %"]);
+    expect([of("size", null, 37.9), of("size", null, 1.24), of("size", null, 1e6)]).toEqual([
+      "size ×38",
+      "size ×1.2",
+      "size ×1000+",
+    ]);
+    expect([of("place", null, 0.8), of("size", null, 0.02), of("stance", null, 1.01)]).toEqual([
+      "place ÷1.3",
+      "size ÷50",
+      "stance ×1",
+    ]);
+    expect(of("size", null, 0)).toBe("size ÷1000+");
   });
 });
 

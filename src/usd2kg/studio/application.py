@@ -176,7 +176,7 @@ class _Api:
 
     async def _object(self, request: Request) -> Response:
         index = self._index(request)
-        return JSONResponse(object_page(self._session, self._indices, index))
+        return JSONResponse(await asyncio.to_thread(object_page, self._session, self._indices, index))
 
     def _index(self, request: Request) -> int:
         index = int(request.path_params["index"])

@@ -1,6 +1,7 @@
 """GraphSession: a studio on a knowledge graph instead of a stage."""
 
 from collections import Counter
+from collections.abc import Iterable, Mapping
 from pathlib import Path
 from typing import NamedTuple
 
@@ -9,7 +10,8 @@ from usd2kg.graph import KnowledgeGraph, individual_iri
 from usd2kg.graph.document_prefixes import document_prefixes
 from usd2kg.graph.revise import revise_classes
 from usd2kg.grounding import Grounding, Prediction
-from usd2kg.ontology import TBox
+from usd2kg.grounding.lexical.candidate_evidence import CandidateEvidence
+from usd2kg.ontology import ClassIRI, TBox
 from usd2kg.pipeline import open_tbox
 from usd2kg.scene import ReadOptions
 from usd2kg.scene.stage import open_stage
@@ -41,6 +43,13 @@ class GraphSession(StudioSession):
         self.stage_note = found.note
         missing = {} if found.path is not None else {"meshes": found.note, "labels": found.note}
         self.limits = {"reground": _GROUND_AGAIN, **missing}
+
+    def evidence(
+        self, prim_path: str, candidates: Iterable[ClassIRI]
+    ) -> Mapping[ClassIRI, tuple[CandidateEvidence, ...]]:
+        """Return nothing, since a graph does not state the evidence."""
+        del prim_path, candidates
+        return {}
 
     def ground_again(self) -> list[tuple[Prediction, Prediction]]:
         """Refuse, since a graph does not state the evidence.

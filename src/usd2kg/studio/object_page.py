@@ -44,7 +44,7 @@ def object_page(session: StudioSession, indices: PageIndices, index: int) -> dic
         "documentation": obj.documentation,
         "explanation": prediction.explanation,
         "evidence": prediction.evidence,
-        "candidates": _candidates(prediction, session.tbox, indices),
+        "candidates": _candidates(prediction, session, indices),
         "second": second_answer(prediction, session.second, indices),
         "concept": _concept(prediction, session),
         "relations": [relation_json(relation, indices) for relation in session.relations_of(obj.prim_path)],
@@ -83,20 +83,23 @@ def _turtle(session: StudioSession, iri: str) -> str:
     return text.decode()
 
 
-def _candidates(prediction: Prediction, tbox: TBox, indices: PageIndices) -> list[dict[str, Any]]:
-    """Return the candidates, the suggestion first, with their shares of the score."""
+def _candidates(prediction: Prediction, session: StudioSession, indices: PageIndices) -> list[dict[str, Any]]:
+    """Return the candidates, the suggestion first, with their shares of the score and the evidence about each."""
     scores = {candidate.class_iri: max(candidate.score, 0.0) for candidate in prediction.candidates}
     if prediction.class_iri is not None:
         # A superclass by abstention is none of the candidates.
         scores = {prediction.class_iri: scores.get(prediction.class_iri, 0.0), **scores}
     total = sum(scores.values())
+    shown = list(scores.items())[:_MAX_CANDIDATES]
+    evidence = session.evidence(prediction.prim_path, [iri for iri, _ in shown])
     return [
         {
             "class": indices.class_(iri),
             "share": score / total if total else None,
-            "taxonomy": _path_to_root(iri, tbox),
+            "taxonomy": _path_to_root(iri, session.tbox),
+            "evidence": [each._asdict() for each in evidence.get(iri, ())],
         }
-        for iri, score in list(scores.items())[:_MAX_CANDIDATES]
+        for iri, score in shown
     ]
 
 

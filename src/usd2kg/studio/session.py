@@ -14,7 +14,11 @@ from usd2kg.graph import KnowledgeGraph, instantiate
 from usd2kg.graph.iris import default_base
 from usd2kg.grounding import Grounding, Prediction, Status, apply_decisions, ground, make_grounder, read_grounding
 from usd2kg.grounding.built_in_choice import stated_places
-from usd2kg.ontology import TBox
+from usd2kg.grounding.context.views import ObjectView, view_objects
+from usd2kg.grounding.lexical.alignment.alignment_file import read_alignment_file
+from usd2kg.grounding.lexical.candidate_evidence import CandidateEvidence
+from usd2kg.grounding.lexical.grounder import LexicalGrounder
+from usd2kg.ontology import ClassIRI, TBox
 from usd2kg.pipeline import open_tbox
 from usd2kg.query import GraphStore
 from usd2kg.relations import Relation, find_relations
@@ -71,6 +75,7 @@ class StudioSession:
         self._graph_lock = threading.Lock()
         self._graph: tuple[Grounding, int, KnowledgeGraph] | None = None
         self._answers: tuple[KnowledgeGraph, GraphStore] | None = None
+        self._explainer: LexicalGrounder | None = None
 
     @property
     def version(self) -> int:
@@ -81,6 +86,21 @@ class StudioSession:
     def predictions(self) -> Mapping[str, Prediction]:
         """Prim path → suggestion, in scene order."""
         return self.suggestions.by_path
+
+    def evidence(
+        self, prim_path: str, candidates: Iterable[ClassIRI]
+    ) -> Mapping[ClassIRI, tuple[CandidateEvidence, ...]]:
+        """Return what words, other objects, size, stance and place say about candidates, whichever grounder chose."""
+        if self._explainer is None:
+            lessons = self.project.applied_lessons
+            learned = lessons if self._learns() and lessons.exists() else None
+            edited = self.project.sources.alignment or learned
+            self._explainer = LexicalGrounder(alignment=None if edited is None else read_alignment_file(edited))
+        return self._explainer.weigh(self._views[prim_path], candidates, self.tbox)
+
+    @cached_property
+    def _views(self) -> Mapping[str, ObjectView]:
+        return {obj.prim_path: view for obj, view in view_objects(self.scene)}
 
     def relations_of(self, prim_path: str) -> list[Relation]:
         """Return the relations of which an object is the target or an anchor."""
@@ -186,6 +206,7 @@ class StudioSession:
         with self._lock:
             before = self.suggestions
             self.suggestions = self._merge_open(before, renewed)
+            self._explainer = None
             after = self.suggestions
         pairs = zip(before.predictions, after.predictions, strict=True)
         return [(old, new) for old, new in pairs if old.class_iri != new.class_iri]

@@ -196,6 +196,19 @@ export interface Candidate {
   share: number | null;
   /** Path of the taxonomy from the class to its root, as labels. */
   taxonomy: string[];
+  /** Empty for a graph, which does not state it. */
+  evidence: CandidateEvidence[];
+}
+
+/** What one source says about one candidate. */
+export interface CandidateEvidence {
+  /** name, asset, labels, documentation, hierarchy, parts, neighbours, size, stance or place. */
+  group: string;
+  explanation: string;
+  /** How well words match, or the share of the neighbours' votes, from 0 to 1; null for the other groups. */
+  score: number | null;
+  /** How much more probable the class is by the size, stance or place alone; null for the other groups. */
+  likelihood_ratio: number | null;
 }
 
 export interface RelationRecord {

@@ -1,8 +1,8 @@
 /** The candidate classes of the object in focus, with their keys. */
 
-import type { ObjectIndex } from "../api/types";
+import type { CandidateEvidence, ObjectIndex } from "../api/types";
 import { isAuditing } from "../state/audit";
-import { candidatesOf } from "../state/candidates";
+import { candidatesOf, evidenceText } from "../state/candidates";
 import type { Store } from "../state/store";
 
 export function Candidates({ store, targets }: { store: Store; targets: readonly ObjectIndex[] }) {
@@ -11,7 +11,7 @@ export function Candidates({ store, targets }: { store: Store; targets: readonly
   if (candidates.length === 0) return <p class="empty">The grounder named no class. Search one with /</p>;
   return (
     <ol class="candidates">
-      {candidates.map(({ class: index, share, taxonomy }, number) => {
+      {candidates.map(({ class: index, share, taxonomy, evidence }, number) => {
         const cls = store.model.data.classes[index];
         return (
           <li key={index}>
@@ -30,9 +30,26 @@ export function Candidates({ store, targets }: { store: Store; targets: readonly
               )}
               <span class="path">{taxonomy.slice(1).join(" ‹ ")}</span>
             </button>
+            {evidence.length > 0 && <Evidence evidence={evidence} label={cls?.label ?? ""} />}
           </li>
         );
       })}
     </ol>
+  );
+}
+
+/** What speaks for a candidate and against it, source by source; opened, with its sentences. */
+function Evidence({ evidence, label }: { evidence: readonly CandidateEvidence[]; label: string }) {
+  return (
+    <details class="candidate-evidence">
+      <summary aria-label={`Evidence for ${label}`}>{evidence.map(evidenceText).join(" · ")}</summary>
+      <ul>
+        {evidence.map((each) => (
+          <li key={each.group}>
+            <strong>{evidenceText(each)}</strong> {each.explanation}
+          </li>
+        ))}
+      </ul>
+    </details>
   );
 }

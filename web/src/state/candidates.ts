@@ -1,7 +1,7 @@
 /** The pages of objects, loaded when they are needed, and the candidates of the object under review. */
 
 import { effect, type Signal, signal } from "@preact/signals";
-import type { Candidate, ObjectIndex, ObjectPage } from "../api/types";
+import type { Candidate, CandidateEvidence, ObjectIndex, ObjectPage } from "../api/types";
 import type { Store } from "./store";
 
 const pages = new WeakMap<Store, Signal<ObjectPage | null>>();
@@ -55,4 +55,13 @@ export async function loadCandidates(store: Store): Promise<Candidate[]> {
 
 function withClass(page: ObjectPage): Candidate[] {
   return page.candidates.filter(({ class: index }) => index >= 0);
+}
+
+/** Returns a source of evidence with its weight: `name 97 %`, `size ×38`, or `place ÷1.2` for what speaks against. */
+export function evidenceText({ group, score, likelihood_ratio: ratio }: CandidateEvidence): string {
+  if (score !== null) return `${group} ${Math.round(100 * score)} %`;
+  if (ratio === null) return group;
+  const times = ratio >= 1 ? ratio : 1 / ratio;
+  const number = times >= 1000 ? "1000+" : times >= 10 ? times.toFixed(0) : times.toFixed(1);
+  return number === "1.0" ? `${group} ×1` : `${group} ${ratio >= 1 ? "×" : "÷"}${number}`;
 }

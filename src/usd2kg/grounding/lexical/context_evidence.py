@@ -27,7 +27,7 @@ from usd2kg.grounding.lexical.concepts.places import (
     places_named,
     stance_of,
 )
-from usd2kg.grounding.lexical.concepts.sizes import Size, round_size, size_log_likelihoods
+from usd2kg.grounding.lexical.concepts.sizes import Size, everyday_nouns, round_size, size_log_likelihoods
 from usd2kg.grounding.lexical.evidence_combination import ScoredClass
 from usd2kg.grounding.lexical.matching.phrase_matching import PhraseMatcher
 from usd2kg.grounding.lexical.name_evidence import NameEvidence
@@ -96,6 +96,33 @@ class ContextEvidence:
             return NO_POSTERIOR
         places = place_probabilities(self._log_places_around(view), places_named(view.parents))
         return self._model.posterior(log_likelihoods_of_appearance(view.appearance), places)
+
+    def score_appearance(self, view: ObjectView) -> list[tuple[str, str, ClassPosterior]]:
+        """Return (evidence group, what is seen, class probabilities given that alone): size, stance, and place."""
+        seen = view.appearance
+        if seen is None:
+            return []
+        anywhere = np.full(len(PLACES), 1 / len(PLACES))
+        around = place_probabilities(self._log_places_around(view), places_named(view.parents))
+        nothing = np.zeros(len(everyday_nouns()))
+        by_place = self._model.posterior(nothing, around)
+        size = " × ".join(f"{extent:.2f}" for extent in sorted(seen.size, reverse=True))
+        elevation = "" if seen.elevation is None else f", {seen.elevation:.1f} m above the ground"
+        place = "by the objects around" if by_place.place is None else f"in what seems {PLACE_TEXTS[by_place.place]}"
+        return [
+            ("size", f"{size} m", self._model.posterior(size_log_likelihoods(seen.size), anywhere)),
+            (
+                "stance",
+                f"as it stands{elevation}",
+                self._model.posterior(log_stance_likelihoods(stance_of(seen)), anywhere),
+            ),
+            ("place", place, by_place),
+        ]
+
+    @cached_property
+    def prior(self) -> ClassPosterior:
+        """Class probabilities of an object of which nothing is known."""
+        return self._model.posterior(np.zeros(len(everyday_nouns())), np.full(len(PLACES), 1 / len(PLACES)))
 
     def explain_posterior(self, view: ObjectView, place: str | None, iri: ClassIRI) -> str:
         """Return one sentence for a class that size and place support."""

@@ -12,6 +12,7 @@ from usd2kg.garbage import paused_collection
 from usd2kg.grounding.context.views import ObjectView
 from usd2kg.grounding.lexical.alignment.alignment_file import AlignmentFile
 from usd2kg.grounding.lexical.alignment.alignment_rows import AlignmentRow
+from usd2kg.grounding.lexical.candidate_evidence import CandidateEvidence
 from usd2kg.grounding.lexical.class_choice import choose_superclass, reconcile_copies, superclass_confidence
 from usd2kg.grounding.lexical.concepts.home_names import home_names
 from usd2kg.grounding.lexical.confidence import calibrate, features_of, general_class_log_odds
@@ -93,6 +94,12 @@ class LexicalGrounder:
     def general_classes(self, tbox: TBox) -> frozenset[ClassIRI]:
         """Return the uninformative classes: the roots and the default class."""
         return self._object_grounder(tbox).general_classes
+
+    def weigh(
+        self, view: ObjectView, candidates: Iterable[ClassIRI], tbox: TBox
+    ) -> Mapping[ClassIRI, tuple[CandidateEvidence, ...]]:
+        """Return what each source says about each candidate of a view: words, neighbours, size, stance and place."""
+        return self._object_grounder(tbox).weigh(view, candidates)
 
     def score_views(self, views: Sequence[tuple[str, ObjectView]], tbox: TBox) -> list[ScoredView]:
         """Return the best candidate of each (prim path, view), with an uncalibrated score."""

@@ -1,6 +1,6 @@
 """Score the classes that the words of an object support: its name, asset, labels, documentation, groups and parts."""
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from functools import cached_property, lru_cache, partial
 
 from usd2kg.grounding.context.views import ObjectView
@@ -63,20 +63,28 @@ class NameEvidence:
     def score_words(self, view: ObjectView) -> list[ScoredClass]:
         """Return the classes that words support, best first; reading stops at the first clear source."""
         scored: list[ScoredClass] = []
+        for found in self.score_sources(view):
+            scored = sorted([*scored, *found], key=lambda each: (-each.score, each.class_iri))
+            if scored and scored[0].score >= EVIDENCE.clear_score:
+                break
+        return scored
+
+    def score_sources(self, view: ObjectView) -> Iterator[list[ScoredClass]]:
+        """Yield the classes that each source of words supports, the most reliable source first."""
         for group, text in texts_of(view):
             if group in {"hierarchy", "parts"} and self._reader.names_known_noun(view.name):
                 # The name is understood and no class fits, so groups and parts could only add a wrong class: a tulip
                 # has a stem, and so has a pipe.
                 break
             is_name = group == "name"
-            for match in self.match(text, view.parents if is_name else (), view.own_size if is_name else None):
-                explain = partial(_explain_match, match, group)
-                score = match.score * _WEIGHTS[group]
-                scored.append(ScoredClass(group, match.class_iri, score, explain, is_listed=match.is_listed))
-            scored.sort(key=lambda found: (-found.score, found.class_iri))
-            if scored and scored[0].score >= EVIDENCE.clear_score:
-                break
-        return scored
+            matches = self.match(text, view.parents if is_name else (), view.own_size if is_name else None)
+            weight = _WEIGHTS[group]
+            yield [
+                ScoredClass(
+                    group, m.class_iri, m.score * weight, partial(_explain_match, m, group), is_listed=m.is_listed
+                )
+                for m in matches
+            ]
 
     def score_abbreviation(self, view: ObjectView) -> list[ScoredClass]:
         """Return the classes of the readings of an abbreviated name; none if all its words are known."""

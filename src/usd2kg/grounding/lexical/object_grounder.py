@@ -13,6 +13,7 @@ from usd2kg.grounding.lexical.alignment.built_alignment import BuiltAlignment, b
 from usd2kg.grounding.lexical.alignment.lexicon import Lexicon
 from usd2kg.grounding.lexical.alignment.lexicon_json import lexicon_as_json, lexicon_of_json
 from usd2kg.grounding.lexical.alignment.terms import TermKind
+from usd2kg.grounding.lexical.candidate_evidence import CandidateEvidence, weigh_candidates
 from usd2kg.grounding.lexical.concepts.taxonomy import Taxonomy, load_taxonomy
 from usd2kg.grounding.lexical.context_evidence import ContextEvidence
 from usd2kg.grounding.lexical.evidence_combination import CONTEXT_GROUPS, ScoredClass, combine_evidence
@@ -98,6 +99,12 @@ class ObjectGrounder:
         note = f"most names of the stage begin with “{' '.join(prefix)}”, which was left out"
         explanation = f"{scored.prediction.explanation}; {note}"
         return scored._replace(prediction=replace(scored.prediction, explanation=explanation))
+
+    def weigh(
+        self, view: ObjectView, candidates: Iterable[ClassIRI]
+    ) -> Mapping[ClassIRI, tuple[CandidateEvidence, ...]]:
+        """Return what each source says about each candidate of a view."""
+        return weigh_candidates(self._words, self._context, view, candidates, self._tbox)
 
     def _unknown_share(self, prediction: Prediction, view: ObjectView) -> float:
         words = prediction.words or self._reader.read(view.name, view.parents).words
