@@ -2,7 +2,9 @@
 
 import json
 import threading
+import time
 import urllib.request
+from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 from typing import Any
 
@@ -176,6 +178,31 @@ def test_pictures_and_pages_of_objects(shared: Client):
     relations = {(r["kind"], r["anchor"]) for r in page["relations"] if r["target"] == CUP_2}
     assert ("on", TABLE) in relations
     assert ("on", CUP_2) in {(r["kind"], r["target"]) for r in shared.ask("api/relations?kind=on").json()["relations"]}
+
+
+def test_decisions_and_object_pages_do_not_wait_for_questions(studio: Client, monkeypatch: pytest.MonkeyPatch):
+    """More questions than `asyncio.to_thread` has threads."""
+    count = 40
+    are_let_go, waiting = threading.Event(), threading.Semaphore(0)
+
+    def wait(*_: object) -> dict[str, str]:
+        waiting.release()
+        are_let_go.wait(30)
+        return {}
+
+    monkeypatch.setattr("usd2kg.studio.questions.Questions.ask", wait)
+    with ThreadPoolExecutor(count) as pool:
+        asked = [pool.submit(studio.ask, "api/ask", {"question": "what is on the table?"}) for _ in range(count)]
+        try:
+            assert waiting.acquire(timeout=20)
+            start = time.perf_counter()
+            decide(studio, [TABLE], "confirm")
+            assert studio.ask(f"api/object/{TABLE}").json()["history"][0]["verdict"] == "class"
+            assert studio.ask("api/undo", {"reviewer": "Ann"}).status == 200
+            assert time.perf_counter() - start < 10
+        finally:
+            are_let_go.set()
+        assert {reply.result().status for reply in asked} == {200}
 
 
 def test_questions_and_queries_name_objects(studio: Client):

@@ -1,6 +1,7 @@
 import { describe, expect, it, vi } from "vitest";
 import { ApiFailure, createClient, readKey } from "../src/api/client";
 import { EventParser, listen } from "../src/api/events";
+import { Lane } from "../src/api/lane";
 import type { ChangeEvent } from "../src/api/types";
 
 function answering(status: number, body: string, seen: Request[] = []): typeof fetch {
@@ -105,5 +106,36 @@ describe("event stream", () => {
     await listen(createClient("k", send), () => 0, handlers, new AbortController().signal);
     expect(denied).toHaveBeenCalledOnce();
     expect(links).toEqual([]);
+  });
+});
+
+describe("slow requests", () => {
+  it("leave a connection for decisions", async () => {
+    const sent: string[] = [];
+    const answers: (() => void)[] = [];
+    const client = createClient("key", (url) => {
+      sent.push(String(url));
+      return new Promise((resolve) => answers.push(() => resolve(new Response("{}"))));
+    });
+    const asked = ["ask", "sparql", "reground"].map((path) => client.post(path, {}));
+    asked.push(client.get("relations?kind=on"));
+    void client.post("decisions", {});
+    await vi.waitFor(() => expect(sent).toEqual(["api/ask", "api/sparql", "api/decisions"]));
+    answers[1]?.();
+    await asked[1];
+    await vi.waitFor(() => expect(sent.slice(3)).toEqual(["api/reground"]));
+    answers[0]?.();
+    answers[3]?.();
+    await vi.waitFor(() => expect(sent.slice(4)).toEqual(["api/relations?kind=on"]));
+    answers[4]?.();
+    await Promise.all(asked);
+  });
+
+  it("give their place to the next one when they fail", async () => {
+    const lane = new Lane(1);
+    const failed = lane.run(() => Promise.reject(new Error("no")));
+    const next = lane.run(async () => 7);
+    await expect(failed).rejects.toThrow("no");
+    expect([await next, await lane.run(async () => 8)]).toEqual([7, 8]);
   });
 });

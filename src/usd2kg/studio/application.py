@@ -2,10 +2,11 @@
 
 import asyncio
 from collections.abc import AsyncIterator, Awaitable, Callable, Iterable
-from concurrent.futures import Future
+from concurrent.futures import Future, ThreadPoolExecutor
 from contextlib import asynccontextmanager
 from dataclasses import asdict
-from typing import Any, TypeVar
+from functools import partial
+from typing import Any, ParamSpec, TypeVar
 
 from starlette.applications import Starlette
 from starlette.background import BackgroundTask
@@ -40,7 +41,9 @@ from usd2kg.studio.stage_media import Pictures
 __all__ = ["make_app"]
 
 _T = TypeVar("_T")
+_P = ParamSpec("_P")
 Handler = Callable[[Request], Awaitable[Response]]
+_REVIEW_THREADS = 2
 
 
 def make_app(
@@ -116,6 +119,13 @@ class _Api:
         self._questions = Questions(session, self._indices)
         self._outputs = OutputFiles(session)
         self._comparison = None if other is None else Comparison(session, self._indices, other)
+        # Questions and graphs may take seconds, on the threads of `asyncio.to_thread`; no decision waits for them.
+        self._review_threads = ThreadPoolExecutor(_REVIEW_THREADS, "usd2kg-review")
+
+    async def _soon(self, function: Callable[_P, _T], *args: _P.args, **kwargs: _P.kwargs) -> _T:
+        """Return the result of a function that takes milliseconds."""
+        loop = asyncio.get_running_loop()
+        return await loop.run_in_executor(self._review_threads, partial(function, *args, **kwargs))
 
     def routes(self) -> list[tuple[str, str, Handler]]:
         """Return (method, path, handler)."""
@@ -147,6 +157,7 @@ class _Api:
 
     def close(self) -> None:
         """Write the files, and stop all threads."""
+        self._review_threads.shutdown()
         self._outputs.close()
         self._questions.close()
         self._pictures.close()
@@ -176,7 +187,7 @@ class _Api:
 
     async def _object(self, request: Request) -> Response:
         index = self._index(request)
-        return JSONResponse(await asyncio.to_thread(object_page, self._session, self._indices, index))
+        return JSONResponse(await self._soon(object_page, self._session, self._indices, index))
 
     def _index(self, request: Request) -> int:
         index = int(request.path_params["index"])
@@ -243,7 +254,7 @@ class _Api:
         reviewer = _reviewer(body)
         seen = field(body, "seen", int, self._session.version)
         decision = read_decision(body, paths, self._session, self._indices)
-        changed = await asyncio.to_thread(
+        changed = await self._soon(
             self._session.decide,
             decision.verdicts,
             reviewer,
@@ -255,11 +266,11 @@ class _Api:
 
     async def _undo(self, request: Request) -> Response:
         body = await read_body(request)
-        return self._announce(await asyncio.to_thread(self._session.undo, _reviewer(body)), body, "undo")
+        return self._announce(await self._soon(self._session.undo, _reviewer(body)), body, "undo")
 
     async def _redo(self, request: Request) -> Response:
         body = await read_body(request)
-        return self._announce(await asyncio.to_thread(self._session.redo, _reviewer(body)), body, "redo")
+        return self._announce(await self._soon(self._session.redo, _reviewer(body)), body, "redo")
 
     async def _ground_again(self, request: Request) -> Response:
         body = await read_body(request)

@@ -1,5 +1,6 @@
 /** Requests to the studio's server. */
 
+import { isSlow, Lane, MAX_SLOW } from "./lane";
 import type { ApiError } from "./types";
 
 /** A request that failed: the server's message, and its status (0 if there was no answer). */
@@ -23,7 +24,10 @@ type Fetch = typeof fetch;
 
 /** Returns a client that sends the access key with each request. */
 export function createClient(key: string, send: Fetch = fetch.bind(globalThis)): Client {
-  const request = async (path: string, init: RequestInit = {}): Promise<Response> => {
+  const slow = new Lane(MAX_SLOW);
+  const request = (path: string, init?: RequestInit): Promise<Response> =>
+    isSlow(path) ? slow.run(() => ask(path, init)) : ask(path, init);
+  const ask = async (path: string, init: RequestInit = {}): Promise<Response> => {
     const headers = new Headers(init.headers);
     headers.set("Authorization", `Bearer ${key}`);
     let response: Response;

@@ -5,7 +5,8 @@ import { useContext, useEffect, useRef, useState } from "preact/hooks";
 import { ApiFailure, type Client } from "../api/client";
 import type { ObjectIndex, SceneData } from "../api/types";
 
-const MAX_REQUESTS = 4;
+/** The server renders one at a time, and browsers keep only 6 connections to it. */
+const MAX_REQUESTS = 2;
 
 export type Picture = { url: string } | { problem: string };
 

@@ -12,17 +12,30 @@ const KINDS = ["on", "inside"] as const;
 /** Returns the support of each object; up to date while the colours show it. */
 export function followSupports(store: Store): { supports: ReadonlySignal<Supports>; stop: () => void } {
   const supports = signal<Supports>(new Map());
-  let request = 0;
+  let wanted: number | null = null;
+  let isFetching = false;
+  // The server builds a graph for each answer: while it does, only the last of several decisions is asked about.
+  const fetchWanted = async () => {
+    if (isFetching) return;
+    isFetching = true;
+    try {
+      while (wanted !== null) {
+        const version: number = wanted;
+        wanted = null;
+        supports.value = await fetchSupports(store, version);
+      }
+    } catch (error) {
+      store.report(error);
+    } finally {
+      isFetching = false;
+    }
+  };
   const stop = effect(() => {
     // Decisions change what may hold and bear something.
     const version = store.version.value;
     if (store.colorMode.value !== "support") return;
-    const own = ++request;
-    fetchSupports(store, version)
-      .then((found) => {
-        if (own === request) supports.value = found;
-      })
-      .catch((error: unknown) => store.report(error));
+    wanted = version;
+    void fetchWanted();
   });
   return { supports, stop };
 }
