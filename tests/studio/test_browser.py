@@ -173,6 +173,13 @@ def test_a_graph_is_shown_as_boxes_and_says_why(browser: Browser, stage: Path, t
     with running_studio(graph, tmp_path / "project") as client:
         page = open_page(browser, client)
         expect(page.locator(".boxes-only")).to_contain_text("kitchen.usda is not beside the graph")
+        page.get_by_label("Color by").select_option("class")
+        for width in (1440, 1000, 600):
+            page.set_viewport_size({"width": width, "height": 500})
+            note, legend = (page.locator(name).bounding_box() for name in (".boxes-only", ".legend"))
+            assert note is not None
+            assert legend is not None
+            assert note["x"] + note["width"] <= legend["x"], f"the legend covers the note in {width} pixels"
         expect(page.get_by_role("button", name="Ground again")).to_be_disabled()
         page.locator("summary", has_text="Export").click()
         expect(page.get_by_role("button", name="Labels (USD layer)")).to_be_disabled()

@@ -23,7 +23,7 @@ pytestmark = BROWSER_MARKS
 NO_MESHES = {"chunks": [], "triangles": 0, "source_triangles": 0}
 FIRST_PAINT = "performance.getEntriesByName('first-contentful-paint').length > 0"
 FIRST_FRAME = "window.studioViewer?.frameMs > 0"
-HIDE_CONTROLS = """for (const each of document.querySelectorAll(".view-tools, .legend, .boxes-only, .notices"))
+HIDE_CONTROLS = """for (const each of document.querySelectorAll(".view-tools, .legend, .view-notes, .notices"))
   each.style.visibility = "hidden";"""
 REMOVE_WEBGL = """() => {
   const get = HTMLCanvasElement.prototype.getContext;

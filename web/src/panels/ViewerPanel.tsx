@@ -73,15 +73,17 @@ export function ViewerPanel({ store, view, firstPicture }: ViewerProps) {
           not, load the page again. Decisions are saved.
         </p>
       )}
-      {loading[0] < loading[1] && (
-        <p class="loading">
-          Meshes {loading[0]} of {loading[1]}
-        </p>
-      )}
-      {store.model.data.limits.meshes !== undefined && <p class="boxes-only">{store.model.data.limits.meshes}</p>}
       <ViewTools store={store} />
       <Legend store={store} entries={legend} />
-      <HoverLine store={store} />
+      <div class="view-notes">
+        {store.model.data.limits.meshes !== undefined && <p class="boxes-only">{store.model.data.limits.meshes}</p>}
+        {loading[0] < loading[1] && (
+          <p class="loading">
+            Meshes {loading[0]} of {loading[1]}
+          </p>
+        )}
+        <HoverLine store={store} />
+      </div>
     </main>
   );
 }
