@@ -77,13 +77,27 @@ def report(unit: str, counts: Sequence[int], memory: Sequence[float]) -> None:
     least, most = (1000 * bound for bound in found.interval)
     print(
         f"Second half: {1000 * found.value:+.2f} MiB per 1,000 {unit}, 95 % interval {least:+.2f} to {most:+.2f}; "
-        f"{memory[half]:.0f} MiB, then {memory[-1]:.0f}",
+        f"{memory[half]:.1f} MiB, then {memory[-1]:.1f}",
         flush=True,
     )
 
 
-def watch(unit: str, total: int, step: Callable[[int], int], sample: int) -> None:
-    """Call a step with its number until its counts reach the total; print the memory over time, and its growth."""
+def watch(
+    unit: str,
+    total: int,
+    step: Callable[[int], int],
+    sample: int,
+    measure: Callable[[], float] = resident_mib,
+) -> None:
+    """Call a step until its counts reach the total; print the memory over time, and its growth.
+
+    Args:
+        unit: what is counted.
+        total: the count to reach.
+        step: takes its number, returns how much it counts.
+        sample: count between two measurements.
+        measure: returns the memory, MiB.
+    """
     start, done, counts, memory = time.perf_counter(), 0, [], []
     print(f"| {unit} | seconds | memory, MiB |\n| --- | --- | --- |")
     number = 0
@@ -93,9 +107,12 @@ def watch(unit: str, total: int, step: Callable[[int], int], sample: int) -> Non
         number += 1
         if done // sample > before // sample:
             counts.append(done)
-            memory.append(resident_mib())
+            memory.append(measure())
         if done * REPORTS // total > before * REPORTS // total:
-            print(f"| {done:,} | {time.perf_counter() - start:.0f} | {resident_mib():.0f} |", flush=True)
+            print(
+                f"| {done:,} | {time.perf_counter() - start:.0f} | {memory[-1] if memory else measure():.1f} |",
+                flush=True,
+            )
     report(unit, counts, memory)
 
 
