@@ -19,7 +19,7 @@ _CHUNK_BYTES = 1 << 20
 def download(
     address: str, *, max_bytes: int, timeout_s: float, error: type[Usd2kgError], accept: str = "*/*"
 ) -> Iterator[bytes]:
-    """Yield the bytes of a web page in chunks of up to 1 MiB.
+    """Yield the bytes of a document in chunks of up to 1 MiB.
 
     Args:
         address: an https or http URL; redirects to other schemes are refused.

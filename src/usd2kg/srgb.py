@@ -17,7 +17,7 @@ def linear_from_srgb(encoded: ArrayLike) -> NDArray[np.float64]:
 
 
 def srgb_from_linear(light: ArrayLike) -> NDArray[np.float64]:
-    """Return sRGB values of linear light, of any shape; light beyond [0, 1] is clipped.
+    """Return sRGB values of linear light, of any shape; light outside [0, 1] is clipped.
 
     >>> srgb_from_linear([-1, 0.0031308, 0.214, 2]).round(3).tolist()
     [0.0, 0.04, 0.5, 1.0]

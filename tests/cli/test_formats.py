@@ -137,7 +137,7 @@ class TestExport:
     [
         (
             ".ofn",
-            "graphs are not read from OWL functional syntax, which usd2kg ontology show and --ontology read as classes",
+            "OWL functional syntax is read only as an ontology (--ontology, usd2kg ontology show), not as a graph",
         ),
         (".graphml", "graphs are not read from GraphML, an export format"),
     ],

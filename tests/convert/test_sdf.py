@@ -455,7 +455,7 @@ class TestIncludes:
         assert center(scene, chair.prim_path) == pytest.approx((1, 2, 0.1))
         assert notes_of(scene) == [
             f"house.world, line 4: the model.config of model://{NAME} is not read (line 1: mismatched tag); "
-            "the model has no texts"
+            "its name and description are left out"
         ]
 
     def test_an_included_file_is_parsed_once(self, tmp_path: Path, monkeypatch: pytest.MonkeyPatch):

@@ -21,4 +21,4 @@ def licences_command(json: JsonOutput = False) -> None:
         return
     emit(format_table(_COLUMNS, [[row[column] for column in _COLUMNS] for row in rows]))
     if files("usd2kg").joinpath(_PAGE).is_file():
-        emit(f"\nThe licences of the libraries in the page of the studio are in {_PAGE}.\n")
+        emit(f"\nThe pages of the studio and of serve contain libraries, whose licences are in {_PAGE}.\n")

@@ -25,7 +25,7 @@ _OBJECT = re.compile(rb"^o[ \t]+\S", re.MULTILINE)
 
 
 class ObjPart(NamedTuple):
-    """The triangles of an object with one material."""
+    """The triangles of one object that share a material."""
 
     name: str
     """Name of the object or group; without them, of the material or of the file."""

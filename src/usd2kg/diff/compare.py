@@ -69,7 +69,7 @@ class Changes:
     """The differences between two graphs or scenes."""
 
     changed: tuple[Change, ...]
-    """By new path."""
+    """Sorted by the new prim path."""
     added: tuple[ObjectState, ...]
     removed: tuple[ObjectState, ...]
     old_count: int

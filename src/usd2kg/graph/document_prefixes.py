@@ -9,7 +9,7 @@ __all__ = ["document_prefixes"]
 def document_prefixes(tbox: TBox) -> dict[str, str]:
     """Return prefix → namespace: those of this project, and those that the ontology declares for its classes.
 
-    A name or namespace that this project uses keeps its meaning.
+    The prefixes of this project take precedence over those of an ontology.
     """
     taken = set(PREFIXES.values())
     own = {

@@ -50,7 +50,7 @@ RDF_FORMATS = {
 _TOO_LARGE = "holds a text that is too long to read, expected at most 16 MiB"
 """Error text for a literal beyond the limit of the parser."""
 _NOT_READ = {
-    ".ofn": "graphs are not read from OWL functional syntax, which usd2kg ontology show and --ontology read as classes",
+    ".ofn": "OWL functional syntax is read only as an ontology (--ontology, usd2kg ontology show), not as a graph",
     ".graphml": "graphs are not read from GraphML, an export format",
 }
 """File extension of an unsupported input → reason."""

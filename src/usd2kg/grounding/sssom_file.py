@@ -65,7 +65,7 @@ class SssomRow(NamedTuple):
 
 
 class SssomFile(NamedTuple):
-    """A file as it is written."""
+    """A parsed file; its CURIEs are not expanded."""
 
     slots: Mapping[str, str]
     """Header slot → value, without lists and nested values."""

@@ -21,14 +21,14 @@ _UP = 2
 
 
 class Tops(NamedTuple):
-    """The highest face below each foot, or no more than a tolerance above it."""
+    """For each foot, the highest face that is below it, or above it by at most a tolerance."""
 
     height: Array
     """NaN if there is none."""
     thickness: Array
     """Metres down to the next face; 0 if there is none."""
     cosine: Array
-    """Of the slope of the face: the distance to it is so much shorter than the height above it."""
+    """Cosine of the slope of the face: distance to the face = height above it × cosine."""
 
 
 def grid_feet(lower: Array, upper: Array) -> Array:

@@ -31,7 +31,7 @@ class ColoredMesh:
     triangles: NDArray[np.int32]
     """(m, 3), indices into `points`, counter-clockwise seen from outside."""
     colors: NDArray[np.uint8]
-    """(n, 4), linear RGB and opacity, 255 for 1; the colour counts where there is no texture."""
+    """(n, 4), linear RGB and opacity, 255 for 1; the colour applies where there is no texture."""
     uv: NDArray[np.float32]
     """(n, 2), texture coordinates; 0 where there is no texture."""
     texture: NDArray[np.int32]
@@ -63,7 +63,7 @@ class GeometryReader:
     def __init__(
         self, opened: OpenedStage, scene: Scene, time: Usd.TimeCode, diagnostics: list[Diagnostic] | None = None
     ) -> None:
-        """Open nothing yet.
+        """Prepare the reader; nothing is read yet.
 
         Args:
             opened: the stage of the scene.
@@ -120,7 +120,7 @@ class GeometryReader:
         if not prim:
             return []
         matrix = self._reader.matrix(prim)
-        # A mirrored frame would turn the triangles inside out, a broken one lose them: keep world points.
+        # A mirrored frame would turn the triangles inside out, a broken one lose them: points stay in the world frame.
         is_plain = bool(np.isfinite(matrix).all() and determinant(matrix) > 0)
         prototype = str(prim.GetPrototype().GetPath()) if prim.IsInstance() and is_plain else ""
         to_world = matrix @ self._to_metres if is_plain else self._to_metres
@@ -135,7 +135,7 @@ class GeometryReader:
         return [MeshPlacement(path + below, mesh, to_world) for below, mesh in parts]
 
     def _by_owner(self, pieces: Iterator[MeshPiece], outermost: str) -> Mapping[str, list[MeshPiece]]:
-        """Return prim path of an object → its pieces: those whose nearest object above it is."""
+        """Return prim path of an object → the pieces of which it is the nearest ancestor object."""
         found: dict[str, list[MeshPiece]] = {}
         for piece in pieces:
             owner = piece.path

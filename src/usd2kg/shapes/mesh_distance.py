@@ -33,8 +33,8 @@ def mesh_distance(one: Solid, other: Solid, reach: float) -> float:
 
     Only the triangles within `reach` of the other object's box are compared, by their boxes, which are never farther
     apart than the triangles.
-    The depth of a penetration is that of the box of either object in the near triangles of the other, along the axis
-    where it is least.
+    The depth of a penetration is how far the box of either object reaches into the near triangles of the other, along
+    the axis where that is least.
     """
     near = [_near_corners(one, other, reach), _near_corners(other, one, reach)]
     if not len(near[0]) or not len(near[1]):

@@ -82,7 +82,7 @@ def read_named_graph(path: Path, iri: str | None = None) -> NamedGraph:
 
 
 def _headers(triples: Iterable[ox.Triple]) -> list[str]:
-    """Return the IRIs of the ontologies that scenes form: those that a run of this package wrote."""
+    """Return the IRIs of the ontologies that are graphs of scenes: those that a run of this package wrote."""
     ontologies, written = set[str](), set[str]()
     run, kind = U2K.run, RDF.type
     for triple in triples:

@@ -40,7 +40,7 @@ def relations_of_graph(index: GraphIndex) -> Iterator[Relation]:
 
 
 def _derived_rooms(index: GraphIndex) -> Iterator[tuple[Any, DerivedRoom]]:
-    """Yield the node of each room without a prim. What is missing or malformed counts as empty, or 0."""
+    """Yield the node of each room without a prim. Missing or malformed values become empty or 0."""
     for node, types in index.subjects_of(RDF.type):
         if U2K.DerivedRoom in types:
             numbers = [

@@ -24,7 +24,7 @@ __all__ = ["EXPECTED", "SdfReader"]
 EXPECTED = "an SDFormat file, whose root element is <sdf> and has a world or a model"
 _BYTES_PER_COUNT = 1024
 _MAX_LEVELS = 32
-"""Models in each other."""
+"""Greatest depth of nested models."""
 _VERSION = re.compile(r"1\.([0-9]{1,2})")
 _LAST_VERSION = 12
 """SDFormat 1.12 is the version of Gazebo Jetty."""
@@ -33,7 +33,7 @@ _TOP_ELEMENTS = ("model", "actor")
 _LIGHTS = frozenset({"sun"})
 """Models of Gazebo's database that are lights; a world without its models must not get a thing of this name."""
 _LEFT_OUT_OF_WORLDS = ("population", "road")
-"""Things of a world that have no geometry of their own; those of `state` are the same as the models."""
+"""Things of a world that have no geometry of their own; `state` is not reported, since it repeats the models."""
 
 
 class _Place(NamedTuple):
@@ -273,7 +273,9 @@ class SdfReader:
         try:
             return self._read_included(self._resources.find(name, folder), element, place)
         except (ResourceError, XmlError, OSError) as error:
-            text = f"the {name} of {element.text_of('uri')} is not read ({error}); the model has no texts"
+            text = (
+                f"the {name} of {element.text_of('uri')} is not read ({error}); its name and description are left out"
+            )
             self._notes.add(place.path, element, text)
             return None
 

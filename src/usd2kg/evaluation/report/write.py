@@ -24,8 +24,8 @@ logger = logging.getLogger(__name__)
 _Block = str | Table | Figure | None
 _HOW_TO_READ = (
     "EMA is the share of objects with exactly the gold class, in percent; HF1, from 0 to 1, gives partial credit to "
-    "classes near it in the hierarchy. Objects without an answer count as wrong. End to end, objects that the object "
-    "selection misses count as wrong, too; all other figures are for all objects of the gold labels. Naming regimes "
+    "classes near it in the hierarchy. Objects without an answer count as wrong. In end-to-end figures, objects that "
+    "the object selection misses also count as wrong; others are for all objects of the gold labels. Naming regimes "
     "mask the name of the object to ground: semantic keeps it, abbreviated drops vowels and truncates words, opaque "
     "replaces it with a number, opaque-anonymous also replaces the names of siblings and parents. Intervals are 95 % "
     "bootstrap intervals; if a scene contains copies, use the one by distinct name."
@@ -35,8 +35,8 @@ _NAME_QUALITY = (
     "contains the head noun of its class: the last word of the local name of the class."
 )
 _SIZE = (
-    "Objects recognised by size alone: a method limited to geometry gets them right under opaque names, but not "
-    "without evidence."
+    "Objects recognised by size alone: a method limited to geometry gets them right under opaque names, and "
+    "without any evidence it does not."
 )
 _SVG_HEAD = '<?xml version="1.0" encoding="utf-8"?>\n'
 

@@ -42,6 +42,7 @@ TEXTS = {
 """RDF property → text property."""
 NUMBERS = {
     U2K.width: "width",
+    # As KnowRob, SOMA's depth is along x and its width along y (ROS REP 103), see `physical_properties`.
     SOMA.hasDepth: "width",
     U2K.depth: "depth",
     SOMA.hasWidth: "depth",

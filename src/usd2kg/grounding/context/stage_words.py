@@ -95,7 +95,7 @@ class FormWords(Generic[R, G]):
         return self._gather(form, ratings[: self._most]) if ratings else None
 
     def _rank(self, form: str, count: int) -> list[tuple[R, str, float]]:
-        """Return the best words for a form; a single letter is a form of half the stage's words."""
+        """Return the best words for a form; a single letter may abbreviate half the stage's words."""
         words = self._words.get(form, ())
         ranked = self._ranked.get(form)
         if ranked is None or len(ranked) < min(count, len(words)):

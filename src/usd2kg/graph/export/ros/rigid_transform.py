@@ -50,7 +50,7 @@ def read_pose(properties: Mapping[str, Value]) -> RigidTransform | None:
 
 
 def _product(first: _Quaternion, second: _Quaternion) -> _Quaternion:
-    """Return Hamilton's product."""
+    """Return the Hamilton product."""
     ax, ay, az, aw = first
     bx, by, bz, bw = second
     return (
