@@ -1,5 +1,6 @@
 """Shell: boxes around the parts of a surface, such as the walls of a flat in one mesh."""
 
+import math
 from collections.abc import Iterator
 from itertools import permutations
 from typing import NamedTuple
@@ -16,7 +17,7 @@ Array = NDArray[np.float64]
 Indices = NDArray[np.int64]
 _SHIFT = 0.37
 """In cells: keeps faces at round multiples of a cell off the boundaries of cells, where rounding would tear them."""
-_MAX_SHORT = 1 << 16
+_OTHER_AXES = ((1, 2), (0, 2), (0, 1))
 Corners = tuple[Array, Array]
 """Lower and upper corner (3,) of a box."""
 
@@ -27,7 +28,7 @@ class _Cells(NamedTuple):
     is_met: NDArray[np.bool_]
     """(x, y, z): whether the surface passes through a cell."""
     lower: Array
-    """(x, y, z, 3), metres; infinite in the other cells."""
+    """(3, x, y, z), metres; infinite in the other cells."""
     upper: Array
 
 
@@ -54,74 +55,75 @@ def shell_boxes(surface: Surface) -> list[Corners]:
 
 def _sample_cells(surface: Surface, cell: float) -> _Cells:
     # Two samples per cell leave no hole where a triangle crosses it obliquely.
-    points = np.concatenate(list(_samples(surface.corners, cell / 2)))
-    place = np.floor((points - points.min(axis=0)) / cell + _SHIFT).astype(np.int64)
-    shape = tuple((place.max(axis=0) + 1).tolist())
-    which = np.ravel_multi_index(tuple(place.T), shape)
-    count = int(np.prod(shape))
-    lower, upper = np.full((count, 3), np.inf), np.full((count, 3), -np.inf)
-    # Sorting is faster than the ufuncs' `at`, above all sorting short integers.
-    order = np.argsort(which.astype(np.uint16) if count <= _MAX_SHORT else which, kind="stable")
-    ordered = which[order]
-    starts = np.flatnonzero(np.diff(ordered, prepend=-1))
-    met = ordered[starts]
-    for axis in range(3):
-        column = points[order, axis]
-        lower[met, axis] = np.minimum.reduceat(column, starts)
-        upper[met, axis] = np.maximum.reduceat(column, starts)
-    is_met = np.isfinite(lower[:, 0])
-    return _Cells(is_met.reshape(shape), lower.reshape(*shape, 3), upper.reshape(*shape, 3))
+    points = _samples(surface.corners, cell / 2)
+    places = [((column - column.min()) / cell + _SHIFT).astype(np.int64) for column in points]
+    shape = tuple(int(place.max()) + 1 for place in places)
+    which = np.ravel_multi_index(places, shape)
+    lower, upper = np.full((3, math.prod(shape)), np.inf), np.full((3, math.prod(shape)), -np.inf)
+    for axis, column in enumerate(points):
+        np.minimum.at(lower[axis], which, column)
+        np.maximum.at(upper[axis], which, column)
+    return _Cells(np.isfinite(lower[0]).reshape(shape), lower.reshape(3, *shape), upper.reshape(3, *shape))
 
 
-def _samples(corners: Array, spacing: float) -> Iterator[Array]:
-    """Yield points (n, 3) on triangles, no farther apart than a spacing, with all corners."""
+def _samples(corners: Array, spacing: float) -> Array:
+    """Return points (3, n) on triangles, no farther apart than a spacing, with all corners."""
     longest = np.sqrt(np.square(corners - np.roll(corners, 1, axis=1)).sum(axis=2)).max(axis=1)
     steps = np.clip(np.ceil(longest / spacing), 1, 4 * SHELL.cells).astype(np.int64)
+    points = []
     for count in np.unique(steps).tolist():
-        some = corners[steps == count]
+        a, b, c = corners[steps == count].transpose(1, 2, 0)[:, :, None]
         i, j = np.meshgrid(np.arange(count + 1), np.arange(count + 1))
-        i, j = i[i + j <= count] / count, j[i + j <= count] / count
-        weights = np.stack([1 - i - j, i, j], axis=1)
-        yield np.einsum("sk,mkd->msd", weights, some).reshape(-1, 3)
+        i, j = i[i + j <= count, None] / count, j[i + j <= count, None] / count
+        points.append(((1 - i - j) * a + i * b + j * c).reshape(3, -1))
+    return np.concatenate(points, axis=1)
 
 
 def _blocks(is_met: NDArray[np.bool_], order: tuple[int, ...]) -> Iterator[tuple[slice, ...]]:
     """Yield blocks of cells that together are the met ones, each grown along the axes in an order."""
     left = is_met.copy()
-    for place in np.argwhere(is_met).tolist():
-        if not left[tuple(place)]:
-            continue
+    flat = left.reshape(-1)
+    first = int(flat.argmax())
+    while flat[first]:
+        place = [int(at) for at in np.unravel_index(first, left.shape)]
         block = [slice(at, at + 1) for at in place]
         for axis in order:
-            end = block[axis].stop
-            while end < left.shape[axis]:
-                block[axis] = slice(end, end + 1)
-                if not left[tuple(block)].all():
-                    break
-                end += 1
-            block[axis] = slice(place[axis], end)
+            block[axis] = slice(place[axis], None)
+            is_full = left[tuple(block)].all(axis=_OTHER_AXES[axis])
+            length = is_full.size if is_full.all() else int(is_full.argmin())
+            block[axis] = slice(place[axis], place[axis] + length)
         left[tuple(block)] = False
         yield tuple(block)
+        first += int(flat[first:].argmax())
 
 
 def _box_of(cells: _Cells, block: tuple[slice, ...]) -> Corners:
-    return cells.lower[block].min(axis=(0, 1, 2)), cells.upper[block].max(axis=(0, 1, 2))
+    return cells.lower[:, *block].min(axis=(1, 2, 3)), cells.upper[:, *block].max(axis=(1, 2, 3))
 
 
 def _merged(boxes: list[Corners], cell: float) -> list[Corners]:
     """Return boxes after merging those whose common box is hardly larger, and the cheapest ones beyond the limit."""
     lower, upper = np.array([box[0] for box in boxes]), np.array([box[1] for box in boxes])
-    while len(lower) > 1:
-        size = (upper - lower + cell).prod(axis=1)
-        joined = np.maximum(upper[:, None], upper[None]) - np.minimum(lower[:, None], lower[None]) + cell
-        growth = joined.prod(axis=2) / (size[:, None] + size[None])
-        np.fill_diagonal(growth, np.inf)
+    is_left = np.ones(len(boxes), np.bool_)
+    growth = np.array([_growth_with(index, lower, upper, is_left, cell) for index in range(len(boxes))])
+    for left in range(len(boxes), 1, -1):
         i, j = np.unravel_index(int(growth.argmin()), growth.shape)
-        if growth[i, j] > 1 + SHELL.max_growth and len(lower) <= SHELL.max_boxes:
+        if growth[i, j] > 1 + SHELL.max_growth and left <= SHELL.max_boxes:
             break
         lower[i], upper[i] = np.minimum(lower[i], lower[j]), np.maximum(upper[i], upper[j])
-        lower, upper = np.delete(lower, j, axis=0), np.delete(upper, j, axis=0)
-    return list(zip(lower, upper, strict=True))
+        is_left[j] = False
+        growth[j] = growth[:, j] = np.inf
+        growth[i] = growth[:, i] = _growth_with(int(i), lower, upper, is_left, cell)
+    return list(zip(lower[is_left], upper[is_left], strict=True))
+
+
+def _growth_with(index: int, lower: Array, upper: Array, is_left: NDArray[np.bool_], cell: float) -> Array:
+    """Return the volume of the common box of one box and each other, relative to the sum of both."""
+    size = (upper - lower + cell).prod(axis=1)
+    joined = (np.maximum(upper[index], upper) - np.minimum(lower[index], lower) + cell).prod(axis=1)
+    growth = np.where(is_left, joined / (size[index] + size), np.inf)
+    growth[index] = np.inf
+    return growth
 
 
 def _joined(boxes: list[Corners]) -> Corners:
