@@ -4,7 +4,6 @@ import csv
 import io
 import json
 from collections.abc import Mapping
-from dataclasses import fields
 from functools import lru_cache
 from importlib.resources import files
 from importlib.resources.abc import Traversable
@@ -72,17 +71,21 @@ _Record = TypeVar("_Record")
 
 
 def read_settings(component: str, section: str, record: type[_Record]) -> _Record:
-    """Return a section of `knowledge/settings/<component>.toml` as a dataclass; lists become tuples.
+    """Return a section of `knowledge/settings/<component>.toml` as a record; lists become tuples.
 
     The TOML file documents each value.
 
+    Args:
+        component: the name of the file.
+        section: the name of the section.
+        record: a named tuple, made ten times as fast as a dataclass; a dataclass where values are checked.
+
     Raises:
         KeyError: the section is unknown.
-        TypeError: the section and the dataclass have different keys.
+        TypeError: the section and the record have different keys.
     """
     values = _read_settings_file(component)[section]
-    known = {entry.name for entry in fields(record)}  # type: ignore[arg-type]
-    if odd := sorted(known ^ set(values)):
+    if odd := sorted(record.__annotations__.keys() ^ values.keys()):
         where = f"[{section}] in knowledge/settings/{component}.toml"
         raise TypeError(f"{odd[0]} is only in {where} or only in {record.__name__}")
     return record(**{key: tuple(value) if isinstance(value, list) else value for key, value in values.items()})

@@ -7,7 +7,6 @@ import subprocess
 import sys
 import time
 from contextlib import contextmanager
-from dataclasses import replace
 from pathlib import Path
 
 import pytest
@@ -44,7 +43,7 @@ def cache(tmp_path: Path, monkeypatch) -> Path:
     """An empty cache that indexes files of any size."""
     folder = tmp_path / "cache"
     monkeypatch.setenv(GRAPH_CACHE_VARIABLE, str(folder))
-    monkeypatch.setattr(graph_cache, "CACHE", replace(graph_cache.CACHE, min_mib=0, lock_wait_s=0.1))
+    monkeypatch.setattr(graph_cache, "CACHE", graph_cache.CACHE._replace(min_mib=0, lock_wait_s=0.1))
     return folder
 
 
@@ -110,7 +109,7 @@ def test_a_changed_file_is_indexed_anew(graph_file: Path, cache: Path):
 
 
 def test_small_files_are_not_indexed(graph_file: Path, cache: Path, monkeypatch):
-    monkeypatch.setattr(graph_cache, "CACHE", replace(graph_cache.CACHE, min_mib=1))
+    monkeypatch.setattr(graph_cache, "CACHE", graph_cache.CACHE._replace(min_mib=1))
     assert load_graph(graph_file, is_indexed=True).dataset.index is None
     assert entries(cache) == []
 
@@ -174,7 +173,7 @@ def test_the_least_recently_used_entries_are_removed_unless_in_use(tmp_path: Pat
         load_graph(path, is_indexed=True)
         os.utime(max(entries(cache), key=lambda entry: entry.stat().st_mtime), (age, age))
     used = load_graph(paths[0], is_indexed=True)
-    monkeypatch.setattr(graph_cache, "CACHE", replace(graph_cache.CACHE, max_mib=0))
+    monkeypatch.setattr(graph_cache, "CACHE", graph_cache.CACHE._replace(max_mib=0))
     new = tmp_path / "new.ttl"
     write_label(new, "new")
     assert labels(load_graph(new, is_indexed=True)) == ["new"]
@@ -232,7 +231,7 @@ def test_a_changed_file_with_its_old_size_and_time_is_indexed_anew(graph_file: P
 def test_two_processes_index_a_file_at_once(graph_file: Path, cache: Path):
     script = (
         "import sys; from dataclasses import replace; from usd2kg.query import graph_cache, load_graph;"
-        "graph_cache.CACHE = replace(graph_cache.CACHE, min_mib=0);"
+        "graph_cache.CACHE = graph_cache.CACHE._replace(min_mib=0);"
         "graph = load_graph(sys.argv[1], is_indexed=True);"
         "print(graph.dataset.index is not None, graph.facts.labelled({'cup'}))"
     )
@@ -246,7 +245,7 @@ def test_two_processes_index_a_file_at_once(graph_file: Path, cache: Path):
 def test_a_killed_process_leaves_no_half_index(graph_file: Path, cache: Path):
     script = (
         "import os, signal, sys; from dataclasses import replace; from usd2kg.query import graph_cache, load_graph;"
-        "graph_cache.CACHE = replace(graph_cache.CACHE, min_mib=0);"
+        "graph_cache.CACHE = graph_cache.CACHE._replace(min_mib=0);"
         "graph_cache.lock_exclusive = lambda *_: os.kill(os.getpid(), signal.SIGKILL);"
         "load_graph(sys.argv[1], is_indexed=True)"
     )
@@ -257,7 +256,7 @@ def test_a_killed_process_leaves_no_half_index(graph_file: Path, cache: Path):
 
 
 def test_tables_of_a_store_are_kept_until_it_changes(kitchen: Path, cache: Path, tmp_path: Path, monkeypatch):
-    monkeypatch.setattr(embedded, "CACHE", replace(graph_cache.CACHE, min_mib=0))
+    monkeypatch.setattr(embedded, "CACHE", graph_cache.CACHE._replace(min_mib=0))
     place = str(tmp_path / "store")
     store = EmbeddedStore(place)
     store.load(read_named_graph(kitchen))

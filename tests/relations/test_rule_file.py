@@ -1,6 +1,5 @@
 """Relation rules and their overrides."""
 
-from dataclasses import fields
 from pathlib import Path
 
 import pytest
@@ -30,9 +29,7 @@ def test_defaults_to_the_packaged_rules():
 def test_every_class_of_the_lists_is_known_to_the_home_ontology():
     known = {cls.iri for cls in load_home_tbox().classes}
     classes = load_rules().classes
-    listed = [
-        name for entry in fields(classes) if isinstance(value := getattr(classes, entry.name), tuple) for name in value
-    ]
+    listed = [name for value in classes if isinstance(value, tuple) for name in value]
     # Others are concepts of WordNet.
     classes_listed = [name for name in listed if not name.startswith("http://wordnet-rdf.princeton.edu/id/")]
     assert not [name for name in classes_listed if expand_curie(name.removeprefix("=")) not in known]
@@ -168,7 +165,7 @@ class TestPage:
         rules = load_rules()
         assert not [kind for kind in ALL_KINDS if f"`{kind}`" not in self.PAGE]
         names = ("rule", "group_rule", "floor_rule", "surrounded_rule", "stated_rule", "tree_rule", "fitted_rule")
-        ids = [getattr(getattr(rules, entry.name), name, None) for entry in fields(rules) for name in names]
+        ids = [getattr(section, name, None) for section in rules for name in names]
         assert not [rule for rule in ids if isinstance(rule, str) and f"`{rule}`" not in self.PAGE]
 
     def test_documented_example_is_valid(self, rules_file):
@@ -212,7 +209,7 @@ def test_rejects_a_missing_file(tmp_path: Path):
 def test_every_kind_has_a_distinct_rule():
     rules = load_rules()
     names = ("rule", "group_rule", "floor_rule", "surrounded_rule", "stated_rule", "tree_rule", "fitted_rule")
-    found = [getattr(getattr(rules, entry.name), name, None) for entry in fields(rules) for name in names]
+    found = [getattr(section, name, None) for section in rules for name in names]
     ids = [rule for rule in found if isinstance(rule, str)]
     assert len(ids) == len(set(ids))
     kinds = {"side" if kind in {"left", "right", "front", "behind"} else kind for kind in ALL_KINDS} - {"below"}

@@ -23,7 +23,7 @@ from usd2kg.studio.settings import AUDIT
 from usd2kg.studio.verdicts import OPEN, Verdict, VerdictKind
 
 TIME = "2026-11-27T10:00:00+00:00"
-SMALL = replace(AUDIT, sample=1)
+SMALL = AUDIT._replace(sample=1)
 CUP, BOWL = "https://x.org/Cup", "https://x.org/Bowl"
 
 
@@ -190,7 +190,7 @@ def test_an_audit_is_about_its_sample(studio: Client, monkeypatch: pytest.Monkey
 
 
 def test_written_files_have_calibrated_confidences(stage: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch):
-    monkeypatch.setattr("usd2kg.evaluation.calibrate.PLATT_FIT", replace(PLATT_FIT, min_answers=2))
+    monkeypatch.setattr("usd2kg.evaluation.calibrate.PLATT_FIT", PLATT_FIT._replace(min_answers=2))
     with (
         open_project(tmp_path / "project", ProjectSources(stage)) as project,
         closing(open_session(project)) as session,

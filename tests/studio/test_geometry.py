@@ -47,7 +47,7 @@ def objects_in(content):
 
 
 def test_the_largest_objects_come_first(write_stage, monkeypatch):
-    monkeypatch.setattr(geometry_files, "GEOMETRY", replace(GEOMETRY, first_chunk_objects=1, chunk_objects=2))
+    monkeypatch.setattr(geometry_files, "GEOMETRY", GEOMETRY._replace(first_chunk_objects=1, chunk_objects=2))
     sizes = {"Spoon": 0.1, "House": 9, "Table": 2, "Cup": 0.2, "Bed": 3}
     stage = write_stage(METRES + "".join(component(name, cube("Body", size=size)) for name, size in sizes.items()))
     files, paths = open_files(stage)
@@ -94,7 +94,7 @@ def test_many_triangles_are_decimated(tmp_path, monkeypatch):
     mesh.CreateFaceVertexCountsAttr([3] * len(ball.faces))
     mesh.CreateFaceVertexIndicesAttr(ball.faces.reshape(-1))
     stage.Save()
-    monkeypatch.setattr(geometry_files, "GEOMETRY", replace(GEOMETRY, max_triangles=1000))
+    monkeypatch.setattr(geometry_files, "GEOMETRY", GEOMETRY._replace(max_triangles=1000))
     files, _ = open_files(tmp_path / "ball.usda")
     manifest = files.manifest()
     assert (manifest["source_triangles"], manifest["triangles"]) == (len(ball.faces), 1000)

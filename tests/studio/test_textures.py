@@ -3,7 +3,6 @@
 import io
 import logging
 import os
-from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -230,21 +229,21 @@ def test_a_file_that_is_no_image_is_warned_about_once(write_poster, picture, tmp
 
 
 def test_a_large_file_is_not_read(write_poster, picture, monkeypatch):
-    monkeypatch.setattr(texture_module, "TEXTURES", replace(TEXTURES, max_file_bytes=100))
+    monkeypatch.setattr(texture_module, "TEXTURES", TEXTURES._replace(max_file_bytes=100))
     files, _ = open_files(write_poster())
     primitives(files)
     assert shown(files) is None
 
 
 def test_the_budget_of_a_scene(write_poster, picture, monkeypatch):
-    monkeypatch.setattr(texture_module, "TEXTURES", replace(TEXTURES, max_scene_bytes=1000))
+    monkeypatch.setattr(texture_module, "TEXTURES", TEXTURES._replace(max_scene_bytes=1000))
     files, _ = open_files(write_poster())
     primitives(files)
     assert shown(files) is None
 
 
 def test_decimated_meshes_have_no_texture(write_poster, picture, monkeypatch):
-    monkeypatch.setattr(geometry_files, "GEOMETRY", replace(GEOMETRY, max_triangles=1, min_mesh_triangles=1))
+    monkeypatch.setattr(geometry_files, "GEOMETRY", GEOMETRY._replace(max_triangles=1, min_mesh_triangles=1))
     (primitive,) = primitives(open_files(write_poster())[0])
     assert "extras" not in primitive
 

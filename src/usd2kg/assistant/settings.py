@@ -1,6 +1,6 @@
 """Settings of assistants, read from `knowledge/settings/assistant.toml`."""
 
-from dataclasses import dataclass
+from typing import NamedTuple
 
 from usd2kg.knowledge import read_settings
 
@@ -18,8 +18,7 @@ __all__ = [
 ]
 
 
-@dataclass(frozen=True)
-class ResultSettings:
+class ResultSettings(NamedTuple):
     """Limits on the results of tools."""
 
     max_rows: int
@@ -27,16 +26,14 @@ class ResultSettings:
     max_described: int
 
 
-@dataclass(frozen=True)
-class SentenceSettings:
+class SentenceSettings(NamedTuple):
     """Numbers of things that a sentence names."""
 
     max_named: int
     max_kinds: int
 
 
-@dataclass(frozen=True)
-class PromptSettings:
+class PromptSettings(NamedTuple):
     """Limits on the parts of a prompt and on repairs; `max_question` to `max_example` are numbers of characters."""
 
     max_tokens: int
@@ -49,8 +46,7 @@ class PromptSettings:
     examples: tuple[str, ...]
 
 
-@dataclass(frozen=True)
-class PlacingSettings:
+class PlacingSettings(NamedTuple):
     """How free places are searched; lengths are metres."""
 
     step: float
@@ -60,8 +56,7 @@ class PlacingSettings:
     max_height: float
 
 
-@dataclass(frozen=True)
-class OpeningSettings:
+class OpeningSettings(NamedTuple):
     """Which space a door or window without a joint sweeps."""
 
     max_thickness: float

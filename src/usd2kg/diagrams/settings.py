@@ -1,14 +1,13 @@
 """Settings of the diagrams, from `knowledge/settings/diagrams.toml` and `coloring.toml`."""
 
-from dataclasses import dataclass
+from typing import NamedTuple
 
 from usd2kg.knowledge import read_settings
 
 __all__ = ["COLORS", "CONFIDENCE", "LEGEND", "PNG", "ROOM", "SHAPES", "SURROUNDINGS", "TEXT"]
 
 
-@dataclass(frozen=True, slots=True)
-class _TextSettings:
+class _TextSettings(NamedTuple):
     """Section `text`."""
 
     title_size: float
@@ -29,8 +28,7 @@ class _TextSettings:
     max_group_letters: int
 
 
-@dataclass(frozen=True, slots=True)
-class _ShapeSettings:
+class _ShapeSettings(NamedTuple):
     """Section `shapes`."""
 
     row_height: float
@@ -43,8 +41,7 @@ class _ShapeSettings:
     line_width: float
 
 
-@dataclass(frozen=True, slots=True)
-class _RoomSettings:
+class _RoomSettings(NamedTuple):
     """Section `room`."""
 
     gap: float
@@ -52,8 +49,7 @@ class _RoomSettings:
     min_ground_share: float
 
 
-@dataclass(frozen=True, slots=True)
-class _SurroundingsSettings:
+class _SurroundingsSettings(NamedTuple):
     """Section `surroundings`."""
 
     gap: float
@@ -66,16 +62,14 @@ class _SurroundingsSettings:
     max_distance_m: float
 
 
-@dataclass(frozen=True, slots=True)
-class _PngSettings:
+class _PngSettings(NamedTuple):
     """Section `png`."""
 
     scale: float
     max_pixels: float
 
 
-@dataclass(frozen=True, slots=True)
-class _PaletteSettings:
+class _PaletteSettings(NamedTuple):
     """Section `palette` of `coloring.toml`."""
 
     categories: tuple[str, ...]
@@ -83,16 +77,14 @@ class _PaletteSettings:
     answer: str
 
 
-@dataclass(frozen=True, slots=True)
-class _ConfidenceSettings:
+class _ConfidenceSettings(NamedTuple):
     """Section `confidence` of `coloring.toml`."""
 
     lower_bounds: tuple[float, ...]
     colors: tuple[str, ...]
 
 
-@dataclass(frozen=True, slots=True)
-class _LegendSettings:
+class _LegendSettings(NamedTuple):
     """Section `legend` of `coloring.toml`."""
 
     swatch: float

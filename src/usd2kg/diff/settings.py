@@ -1,22 +1,20 @@
 """Settings of the comparison, from `knowledge/settings/diff.toml`, except for the section `tolerances`."""
 
-from dataclasses import dataclass
+from typing import NamedTuple
 
 from usd2kg.knowledge import read_settings
 
 __all__ = ["COMPARISON", "MATCHING", "MEMORY"]
 
 
-@dataclass(frozen=True, slots=True)
-class _ComparisonSettings:
+class _ComparisonSettings(NamedTuple):
     """Section `comparison`."""
 
     noise_m: float
     min_mass_change: float
 
 
-@dataclass(frozen=True, slots=True)
-class _MatchingSettings:
+class _MatchingSettings(NamedTuple):
     """Section `matching`."""
 
     same_place_m: float
@@ -26,8 +24,7 @@ class _MatchingSettings:
     class_only_reach: float
 
 
-@dataclass(frozen=True, slots=True)
-class _MemorySettings:
+class _MemorySettings(NamedTuple):
     """Section `memory`."""
 
     pairs_per_chunk: int

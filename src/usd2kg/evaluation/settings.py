@@ -1,6 +1,6 @@
 """Settings of the evaluation, one class per section of `knowledge/settings/evaluation.toml`."""
 
-from dataclasses import dataclass
+from typing import NamedTuple
 
 from usd2kg.knowledge import read_settings
 
@@ -16,23 +16,20 @@ __all__ = [
 ]
 
 
-@dataclass(frozen=True, slots=True)
-class CalibrationSettings:
+class CalibrationSettings(NamedTuple):
     """Reliability diagrams and calibration error."""
 
     bins: int
 
 
-@dataclass(frozen=True, slots=True)
-class BootstrapSettings:
+class BootstrapSettings(NamedTuple):
     """Bootstrap intervals."""
 
     resamples: int
     seed: int
 
 
-@dataclass(frozen=True, slots=True)
-class PlattFitSettings:
+class PlattFitSettings(NamedTuple):
     """Newton's method for Platt scaling."""
 
     min_answers: int
@@ -41,8 +38,7 @@ class PlattFitSettings:
     ridge: float
 
 
-@dataclass(frozen=True, slots=True)
-class ReportSettings:
+class ReportSettings(NamedTuple):
     """Limits on the length of tables and plots in reports."""
 
     max_names: int

@@ -1,14 +1,13 @@
 """Settings of graph construction, read from `knowledge/settings/graph.toml`."""
 
-from dataclasses import dataclass
+from typing import NamedTuple
 
 from usd2kg.knowledge import read_settings
 
 __all__ = ["JUSTIFICATION", "JustificationSettings"]
 
 
-@dataclass(frozen=True, slots=True)
-class JustificationSettings:
+class JustificationSettings(NamedTuple):
     """Annotations of type assertions."""
 
     max_alternatives: int

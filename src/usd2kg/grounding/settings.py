@@ -1,6 +1,6 @@
 """Settings of the grounders, from `knowledge/settings/grounding.toml`."""
 
-from dataclasses import dataclass
+from typing import NamedTuple
 
 from usd2kg.knowledge import read_settings
 
@@ -16,16 +16,14 @@ __all__ = [
 ]
 
 
-@dataclass(frozen=True, slots=True)
-class BaselineSettings:
+class BaselineSettings(NamedTuple):
     """Settings of the baseline grounders."""
 
     max_candidates: int
     smallest_side_m: float
 
 
-@dataclass(frozen=True, slots=True)
-class BuiltInChoiceSettings:
+class BuiltInChoiceSettings(NamedTuple):
     """Settings of the choice of a built-in TBox."""
 
     min_share: float
@@ -33,15 +31,13 @@ class BuiltInChoiceSettings:
     named_examples: int
 
 
-@dataclass(frozen=True, slots=True)
-class QueueSettings:
+class QueueSettings(NamedTuple):
     """Settings of the review queue."""
 
     max_alternatives: int
 
 
-@dataclass(frozen=True, slots=True)
-class PlattScalingSettings:
+class PlattScalingSettings(NamedTuple):
     """Settings of Platt scaling."""
 
     min_probability: float

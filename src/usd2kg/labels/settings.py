@@ -1,14 +1,13 @@
 """Settings of the label linter, from `knowledge/settings/labels.toml`."""
 
-from dataclasses import dataclass
+from typing import NamedTuple
 
 from usd2kg.knowledge import read_settings
 
 __all__ = ["LINT"]
 
 
-@dataclass(frozen=True, slots=True)
-class _LintSettings:
+class _LintSettings(NamedTuple):
     """Section `lint`."""
 
     min_name_similarity: float

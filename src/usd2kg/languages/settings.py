@@ -1,6 +1,6 @@
 """Settings of the translation of names, one class per section of `knowledge/settings/languages.toml`."""
 
-from dataclasses import dataclass
+from typing import NamedTuple
 
 from usd2kg.knowledge import read_settings
 
@@ -14,8 +14,7 @@ __all__ = [
 ]
 
 
-@dataclass(frozen=True, slots=True)
-class VariantSettings:
+class VariantSettings(NamedTuple):
     """Costs of inflected and respelled words."""
 
     inflection_cost: int
@@ -25,8 +24,7 @@ class VariantSettings:
     min_lost_umlaut: int
 
 
-@dataclass(frozen=True, slots=True)
-class CompoundSettings:
+class CompoundSettings(NamedTuple):
     """Splitting of German compounds."""
 
     max_letters: int
@@ -35,8 +33,7 @@ class CompoundSettings:
     part_cost: int
 
 
-@dataclass(frozen=True, slots=True)
-class PhraseSettings:
+class PhraseSettings(NamedTuple):
     """Limits of listed phrases."""
 
     max_words: int

@@ -1,6 +1,6 @@
 """Settings of graph queries, read from `knowledge/settings/query.toml`."""
 
-from dataclasses import dataclass
+from typing import NamedTuple
 
 from usd2kg.knowledge import read_settings
 
@@ -20,8 +20,7 @@ __all__ = [
 ]
 
 
-@dataclass(frozen=True)
-class SweepSettings:
+class SweepSettings(NamedTuple):
     """How the movement of a joint is simulated; lengths are metres."""
 
     step: float
@@ -33,8 +32,7 @@ class SweepSettings:
     max_level_slope: float
 
 
-@dataclass(frozen=True)
-class LookupSettings:
+class LookupSettings(NamedTuple):
     """What is offered for an unknown name, and how much is listed for a known one."""
 
     min_label_similarity: float
@@ -42,8 +40,7 @@ class LookupSettings:
     max_listed: int
 
 
-@dataclass(frozen=True)
-class WordSettings:
+class WordSettings(NamedTuple):
     """How words of a name are matched with those of the graph."""
 
     min_confidence: float
@@ -53,8 +50,7 @@ class WordSettings:
     min_general_share: float
 
 
-@dataclass(frozen=True)
-class DirectionSettings:
+class DirectionSettings(NamedTuple):
     """Where a viewer stands, and what is beside a thing; lengths are metres, the angle is degrees."""
 
     surroundings: float
@@ -65,8 +61,7 @@ class DirectionSettings:
     feet: float
 
 
-@dataclass(frozen=True)
-class ComplexitySettings:
+class ComplexitySettings(NamedTuple):
     """Limits of queries that the engine can run without a stack overflow."""
 
     max_nesting: int
@@ -74,8 +69,7 @@ class ComplexitySettings:
     max_triples: int
 
 
-@dataclass(frozen=True)
-class CacheSettings:
+class CacheSettings(NamedTuple):
     """Which graph files are indexed, and how much is kept."""
 
     min_mib: float
@@ -84,8 +78,7 @@ class CacheSettings:
     abandoned_h: float
 
 
-@dataclass(frozen=True)
-class RouteSettings:
+class RouteSettings(NamedTuple):
     """Which openings people walk through; lengths are metres."""
 
     min_door_height: float

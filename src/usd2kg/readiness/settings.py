@@ -1,14 +1,13 @@
 """Settings of the readiness check, read from `knowledge/settings/readiness.toml`."""
 
-from dataclasses import dataclass
+from typing import NamedTuple
 
 from usd2kg.knowledge import read_settings
 
 __all__ = ["HIERARCHY", "SUGGESTION", "HierarchySettings", "SuggestionSettings"]
 
 
-@dataclass(frozen=True, slots=True)
-class HierarchySettings:
+class HierarchySettings(NamedTuple):
     """Thresholds of the findings about the hierarchy."""
 
     min_flat_classes: int
@@ -16,8 +15,7 @@ class HierarchySettings:
     max_names: int
 
 
-@dataclass(frozen=True, slots=True)
-class SuggestionSettings:
+class SuggestionSettings(NamedTuple):
     """Suggested subclasses."""
 
     min_confidence: float

@@ -3,10 +3,9 @@
 import math
 import tomllib
 from collections.abc import Mapping
-from dataclasses import fields, replace
 from functools import lru_cache
 from pathlib import Path
-from typing import Any, TypeVar
+from typing import Any, NamedTuple, TypeVar
 
 from usd2kg.errors import GraphError
 from usd2kg.knowledge import read_text
@@ -35,8 +34,8 @@ def load_rules(overrides: Path | str | None = None) -> RelationRules:
 @lru_cache(maxsize=1)
 def _shipped_rules() -> RelationRules:
     table = tomllib.loads(read_text("spatial.toml"))
-    made = {entry.name: entry.type(**_lists_to_tuples(table[entry.name])) for entry in fields(RelationRules)}  # type: ignore[operator]
-    return RelationRules(**made)
+    sections = RelationRules.__annotations__
+    return RelationRules(**{name: section(**_lists_to_tuples(table[name])) for name, section in sections.items()})
 
 
 def _lists_to_tuples(section: Mapping[str, Any]) -> dict[str, Any]:
@@ -55,42 +54,38 @@ def _parse(path: Path) -> dict[str, Any]:
 def _with_overrides(rules: RelationRules, table: dict[str, Any], source: str) -> RelationRules:
     sections = {}
     for name, values in table.items():
-        known = [entry.name for entry in fields(RelationRules)]
-        if name not in known:
-            raise GraphError(f"{source}: section [{name}] is unknown; expected one of {', '.join(known)}")
+        if name not in RelationRules._fields:
+            known = ", ".join(RelationRules._fields)
+            raise GraphError(f"{source}: section [{name}] is unknown; expected one of {known}")
         if not isinstance(values, dict):
             raise GraphError(f"{source}: {name} is {values!r}; expected a section [{name}] with keys and values")
         section = getattr(rules, name)
         extended = values.pop(_EXTEND, {}) if name == "classes" else {}
         section = _with_values(section, values, f"{source}: [{name}]")
         sections[name] = _with_extensions(section, extended, f"{source}: [{name}.{_EXTEND}]")
-    return replace(rules, **sections)
+    return rules._replace(**sections)
 
 
-_Section = TypeVar("_Section")
+_Section = TypeVar("_Section", bound=NamedTuple)
 
 
 def _with_values(section: _Section, values: Mapping[str, Any], where: str) -> _Section:
-    known = [entry.name for entry in fields(section)]  # type: ignore[arg-type]
     for key, value in values.items():
-        if key not in known:
-            raise GraphError(f"{where}: key {key!r} is unknown; expected one of {', '.join(known)}")
+        if key not in section._fields:
+            raise GraphError(f"{where}: key {key!r} is unknown; expected one of {', '.join(section._fields)}")
         _check(getattr(section, key), value, f"{where} {key}")
-    changed: _Section = replace(section, **_lists_to_tuples(values))  # type: ignore[type-var]
-    return changed
+    return section._replace(**_lists_to_tuples(values))
 
 
 def _with_extensions(section: _Section, values: Any, where: str) -> _Section:
     if not isinstance(values, dict):
         raise GraphError(f'{where} is {values!r}; expected lists of classes, like containers = ["soma:Table"]')
-    lists = {key: old for entry in fields(section) if isinstance(old := getattr(section, key := entry.name), tuple)}  # type: ignore[arg-type]
+    lists = {key: old for key, old in section._asdict().items() if isinstance(old, tuple)}
     for key, value in values.items():
         if key not in lists:
             raise GraphError(f"{where}: key {key!r} is unknown; expected one of {', '.join(lists)}")
         _check(lists[key], value, f"{where} {key}")
-    longer = {key: (*lists[key], *value) for key, value in values.items()}
-    changed: _Section = replace(section, **longer)  # type: ignore[type-var]
-    return changed
+    return section._replace(**{key: (*lists[key], *value) for key, value in values.items()})
 
 
 def _check(shipped: Any, value: Any, where: str) -> None:

@@ -1,6 +1,6 @@
 """Numerical settings of relation finding, one class per section of `knowledge/settings/relations.toml`."""
 
-from dataclasses import dataclass
+from typing import NamedTuple
 
 from usd2kg.knowledge import read_settings
 
@@ -18,23 +18,20 @@ __all__ = [
 ]
 
 
-@dataclass(frozen=True, slots=True)
-class FootprintSettings:
+class FootprintSettings(NamedTuple):
     """Recognition of footprints that are rotated about z."""
 
     min_upright: float
     max_misfit: float
 
 
-@dataclass(frozen=True, slots=True)
-class DistanceSettings:
+class DistanceSettings(NamedTuple):
     """Distances between the parts of objects."""
 
     max_part_pairs: int
 
 
-@dataclass(frozen=True, slots=True)
-class EnclosureSettings:
+class EnclosureSettings(NamedTuple):
     """Points of an object from which rays are cast."""
 
     grid: int
@@ -42,8 +39,7 @@ class EnclosureSettings:
     inset: float
 
 
-@dataclass(frozen=True, slots=True)
-class FeetSettings:
+class FeetSettings(NamedTuple):
     """Sampling of the underside of an object."""
 
     grid: int
@@ -51,8 +47,7 @@ class FeetSettings:
     flatness: float
 
 
-@dataclass(frozen=True, slots=True)
-class BetweenSettings:
+class BetweenSettings(NamedTuple):
     """Sampling of footprints."""
 
     samples: int

@@ -1,6 +1,6 @@
 """Thresholds and class lists of the relation rules, one class per section of `knowledge/spatial.toml`."""
 
-from dataclasses import dataclass, field
+from typing import NamedTuple
 
 __all__ = [
     "AboveRule",
@@ -28,8 +28,7 @@ __all__ = [
 # knowledge/spatial.toml documents each field beside its value: unit, meaning and origin.
 
 
-@dataclass(frozen=True, slots=True)
-class ObjectGeometry:
+class ObjectGeometry(NamedTuple):
     """Feet, sheets and broad tops of objects."""
 
     foot_height: float
@@ -37,8 +36,7 @@ class ObjectGeometry:
     min_broad_ratio: float
 
 
-@dataclass(frozen=True, slots=True)
-class BlockingRule:
+class BlockingRule(NamedTuple):
     """When a third object is between two others."""
 
     min_distance: float
@@ -46,8 +44,7 @@ class BlockingRule:
     most: int
 
 
-@dataclass(frozen=True, slots=True)
-class OnRule:
+class OnRule(NamedTuple):
     """`on` one anchor."""
 
     rule: str
@@ -61,8 +58,7 @@ class OnRule:
     max_sink: float
 
 
-@dataclass(frozen=True, slots=True)
-class OnSeveralRule:
+class OnSeveralRule(NamedTuple):
     """`on` several anchors."""
 
     rule: str
@@ -70,8 +66,7 @@ class OnSeveralRule:
     min_anchor_ratio: float
 
 
-@dataclass(frozen=True, slots=True)
-class HoveringRule:
+class HoveringRule(NamedTuple):
     """`on` an anchor below a small gap."""
 
     rule: str
@@ -79,8 +74,7 @@ class HoveringRule:
     min_overlap_ratio: float
 
 
-@dataclass(frozen=True, slots=True)
-class InsideRule:
+class InsideRule(NamedTuple):
     """`inside` an enclosing anchor."""
 
     rule: str
@@ -97,8 +91,7 @@ class InsideRule:
     max_buried: float
 
 
-@dataclass(frozen=True, slots=True)
-class StandingInRule:
+class StandingInRule(NamedTuple):
     """`inside` an open container, protruding at its top."""
 
     rule: str
@@ -110,8 +103,7 @@ class StandingInRule:
     max_area_ratio: float
 
 
-@dataclass(frozen=True, slots=True)
-class AttachedRule:
+class AttachedRule(NamedTuple):
     """`attached-to`."""
 
     rule: str
@@ -128,8 +120,7 @@ class AttachedRule:
     max_wall_thickness: float
 
 
-@dataclass(frozen=True, slots=True)
-class AboveRule:
+class AboveRule(NamedTuple):
     """`above` and `below`."""
 
     rule: str
@@ -138,8 +129,7 @@ class AboveRule:
     most: int
 
 
-@dataclass(frozen=True, slots=True)
-class TouchingRule:
+class TouchingRule(NamedTuple):
     """`touching`."""
 
     rule: str
@@ -149,8 +139,7 @@ class TouchingRule:
     most: int
 
 
-@dataclass(frozen=True, slots=True)
-class NextToRule:
+class NextToRule(NamedTuple):
     """`next-to`."""
 
     rule: str
@@ -162,8 +151,7 @@ class NextToRule:
     most: int
 
 
-@dataclass(frozen=True, slots=True)
-class NearRule:
+class NearRule(NamedTuple):
     """`near`."""
 
     rule: str
@@ -173,8 +161,7 @@ class NearRule:
     most: int
 
 
-@dataclass(frozen=True, slots=True)
-class BetweenRule:
+class BetweenRule(NamedTuple):
     """`between`."""
 
     rule: str
@@ -187,8 +174,7 @@ class BetweenRule:
     most: int
 
 
-@dataclass(frozen=True, slots=True)
-class SideRule:
+class SideRule(NamedTuple):
     """`left`, `right`, `front` and `behind`."""
 
     rule: str
@@ -197,8 +183,7 @@ class SideRule:
     most: int
 
 
-@dataclass(frozen=True, slots=True)
-class RoomRule:
+class RoomRule(NamedTuple):
     """`room`."""
 
     rule: str
@@ -209,8 +194,7 @@ class RoomRule:
     words: tuple[str, ...]
 
 
-@dataclass(frozen=True, slots=True)
-class RoomPlanRule:
+class RoomPlanRule(NamedTuple):
     """Rooms where no prim is a room, from walls and floors."""
 
     rule: str
@@ -235,8 +219,7 @@ class RoomPlanRule:
     min_share: float
 
 
-@dataclass(frozen=True, slots=True)
-class ConnectsRule:
+class ConnectsRule(NamedTuple):
     """`connects`."""
 
     rule: str
@@ -246,8 +229,7 @@ class ConnectsRule:
     max_gap: float
 
 
-@dataclass(frozen=True, slots=True)
-class PartOfRule:
+class PartOfRule(NamedTuple):
     """`part-of`."""
 
     stated_rule: str
@@ -256,8 +238,7 @@ class PartOfRule:
     max_gap: float
 
 
-@dataclass(frozen=True, slots=True)
-class ClassLists:
+class ClassLists(NamedTuple):
     """Lists of class IRIs or CURIEs; a leading `=` excludes subclasses."""
 
     not_placed: tuple[str, ...]
@@ -289,8 +270,7 @@ class ClassLists:
     containment_disposition: str
 
 
-@dataclass(frozen=True, slots=True)
-class RelationRules:
+class RelationRules(NamedTuple):
     """All thresholds and class lists, one field per section of `knowledge/spatial.toml`."""
 
     geometry: ObjectGeometry
@@ -311,4 +291,4 @@ class RelationRules:
     room_plan: RoomPlanRule
     connects: ConnectsRule
     part_of: PartOfRule
-    classes: ClassLists = field(repr=False)
+    classes: ClassLists

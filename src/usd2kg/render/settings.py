@@ -1,6 +1,6 @@
 """Settings of pictures, documented in `knowledge/settings/render.toml`."""
 
-from dataclasses import dataclass
+from typing import NamedTuple
 
 from usd2kg.knowledge import read_settings
 
@@ -16,8 +16,7 @@ __all__ = [
 ]
 
 
-@dataclass(frozen=True)
-class LightingSettings:
+class LightingSettings(NamedTuple):
     """Light and edge lines."""
 
     key_light: tuple[float, float, float]
@@ -36,8 +35,7 @@ class LightingSettings:
     transparent_alpha: float
 
 
-@dataclass(frozen=True)
-class ViewpointSettings:
+class ViewpointSettings(NamedTuple):
     """Positions of the camera."""
 
     vertical_view_angle: float
@@ -65,8 +63,7 @@ class ViewpointSettings:
     detail_difference: float
 
 
-@dataclass(frozen=True)
-class CutawaySettings:
+class CutawaySettings(NamedTuple):
     """Geometry removed for a view into a scene."""
 
     stray_quantile: float
@@ -91,8 +88,7 @@ class CutawaySettings:
     room_height: float
 
 
-@dataclass(frozen=True)
-class PictureSettings:
+class PictureSettings(NamedTuple):
     """Sizes, colours and quality of pictures."""
 
     thumbnail_size: tuple[int, int]

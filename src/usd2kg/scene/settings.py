@@ -1,6 +1,6 @@
 """Settings of reading a stage, documented in `knowledge/settings/scene.toml`."""
 
-from dataclasses import dataclass
+from typing import NamedTuple
 
 from usd2kg.knowledge import read_settings
 
@@ -34,8 +34,7 @@ MAX_COORDINATE = 1e30
 """OpenUSD marks empty ranges, infinite planes and unlimited joints with numbers of this magnitude or larger."""
 
 
-@dataclass(frozen=True)
-class LimitSettings:
+class LimitSettings(NamedTuple):
     """Limits on evidence, messages, stage units and the number of prims."""
 
     max_prims: int
@@ -53,16 +52,14 @@ class LimitSettings:
     max_unit: float
 
 
-@dataclass(frozen=True)
-class SolidSettings:
+class SolidSettings(NamedTuple):
     """Tessellation of round solids."""
 
     segments: int
     box_segments: int
 
 
-@dataclass(frozen=True)
-class MeshSettings:
+class MeshSettings(NamedTuple):
     """Limits on rendering."""
 
     max_display_colors: int
@@ -71,8 +68,7 @@ class MeshSettings:
     max_instancer_depth: int
 
 
-@dataclass(frozen=True)
-class LevelSettings:
+class LevelSettings(NamedTuple):
     """Support levels within meshes."""
 
     margin: float
@@ -86,8 +82,7 @@ class LevelSettings:
     max_levels: int
 
 
-@dataclass(frozen=True)
-class SurfaceSettings:
+class SurfaceSettings(NamedTuple):
     """Surfaces that are kept for the spatial relations."""
 
     reach: float
@@ -97,8 +92,7 @@ class SurfaceSettings:
     max_total_points: int
 
 
-@dataclass(frozen=True)
-class UnnamedSettings:
+class UnnamedSettings(NamedTuple):
     """Pieces without meaningful names."""
 
     max_extent: float
@@ -106,36 +100,31 @@ class UnnamedSettings:
     max_pieces: int
 
 
-@dataclass(frozen=True)
-class RobotSettings:
+class RobotSettings(NamedTuple):
     """Recognition of robot arms."""
 
     min_turning_joints: int
 
 
-@dataclass(frozen=True)
-class JointSettings:
+class JointSettings(NamedTuple):
     """Directions of joint axes."""
 
     max_axis_angle: float
 
 
-@dataclass(frozen=True)
-class LabelSettings:
+class LabelSettings(NamedTuple):
     """Checks of labels."""
 
     min_similarity: float
 
 
-@dataclass(frozen=True)
-class TextSettings:
+class TextSettings(NamedTuple):
     """Free text in attributes and metadata."""
 
     min_word_share: float
 
 
-@dataclass(frozen=True)
-class SanitySettings:
+class SanitySettings(NamedTuple):
     """Checks of the extent and the names of a scene."""
 
     min_objects: int

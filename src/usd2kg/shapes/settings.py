@@ -1,6 +1,6 @@
 """Settings of shape descriptors, documented in `knowledge/settings/shapes.toml`."""
 
-from dataclasses import dataclass
+from typing import NamedTuple
 
 from usd2kg.knowledge import read_settings
 
@@ -16,8 +16,7 @@ __all__ = [
 ]
 
 
-@dataclass(frozen=True)
-class TriangleMeshSettings:
+class TriangleMeshSettings(NamedTuple):
     """Tolerances of triangle meshes."""
 
     weld_distance: float
@@ -28,8 +27,7 @@ class TriangleMeshSettings:
     min_thickness: float
 
 
-@dataclass(frozen=True)
-class BoundingBoxSettings:
+class BoundingBoxSettings(NamedTuple):
     """Candidate orientations of the minimum bounding box."""
 
     min_face_share: float
@@ -37,8 +35,7 @@ class BoundingBoxSettings:
     normal_steps: int
 
 
-@dataclass(frozen=True)
-class VesselSettings:
+class VesselSettings(NamedTuple):
     """Resolution and limits of the capacity measurement."""
 
     cells: int
@@ -50,8 +47,7 @@ class VesselSettings:
     max_rows: int
 
 
-@dataclass(frozen=True)
-class ShellSettings:
+class ShellSettings(NamedTuple):
     """Division of a surface into boxes."""
 
     cells: int

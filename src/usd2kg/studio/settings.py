@@ -1,6 +1,6 @@
 """Settings of the studio, read from `knowledge/settings/studio.toml`."""
 
-from dataclasses import dataclass
+from typing import NamedTuple
 
 from usd2kg.knowledge import read_settings
 
@@ -22,8 +22,7 @@ PASSWORD_VARIABLE = "USD2KG_STUDIO_PASSWORD"
 """Environment variable with the password of the studio."""
 
 
-@dataclass(frozen=True)
-class ReviewQueueSettings:
+class ReviewQueueSettings(NamedTuple):
     """How groups are named, and how the time for the rest of a queue is estimated."""
 
     common_share: float
@@ -32,16 +31,14 @@ class ReviewQueueSettings:
     min_decisions: int
 
 
-@dataclass(frozen=True)
-class AuditSettings:
+class AuditSettings(NamedTuple):
     """The random sample that measures how often suggestions are right."""
 
     sample: int
     seed: int
 
 
-@dataclass(frozen=True)
-class GeometrySettings:
+class GeometrySettings(NamedTuple):
     """How much geometry is sent to the page."""
 
     max_triangles: int
@@ -51,8 +48,7 @@ class GeometrySettings:
     chunk_objects: int
 
 
-@dataclass(frozen=True)
-class TextureSettings:
+class TextureSettings(NamedTuple):
     """How images of textures are scaled down, and which are left out."""
 
     max_side: int
@@ -63,8 +59,7 @@ class TextureSettings:
     max_scene_bytes: int
 
 
-@dataclass(frozen=True)
-class ServerSettings:
+class ServerSettings(NamedTuple):
     """Limits of requests, and when files follow the decisions."""
 
     max_body_bytes: int

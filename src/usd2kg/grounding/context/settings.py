@@ -3,7 +3,7 @@
 The TOML file documents each value beside it: unit, meaning and origin.
 """
 
-from dataclasses import dataclass
+from typing import NamedTuple
 
 from usd2kg.knowledge import read_settings
 
@@ -15,8 +15,7 @@ __all__ = [
 ]
 
 
-@dataclass(frozen=True, slots=True)
-class NeighbourSettings:
+class NeighbourSettings(NamedTuple):
     """Neighbours in the stage's tree and by size."""
 
     next_places: int
@@ -28,8 +27,7 @@ class NeighbourSettings:
     min_cached_words: int
 
 
-@dataclass(frozen=True, slots=True)
-class PlacementSettings:
+class PlacementSettings(NamedTuple):
     """Ground and surroundings on the floor plan."""
 
     cell: float

@@ -3,7 +3,7 @@
 The TOML file documents each value beside it: unit, meaning and origin.
 """
 
-from dataclasses import dataclass
+from typing import NamedTuple
 
 from usd2kg.knowledge import read_settings
 
@@ -63,8 +63,7 @@ __all__ = [
 ]
 
 
-@dataclass(frozen=True, slots=True)
-class EvidenceSettings:
+class EvidenceSettings(NamedTuple):
     """Weights and thresholds of the sources of words."""
 
     name_weight: float
@@ -80,8 +79,7 @@ class EvidenceSettings:
     max_parts: int
 
 
-@dataclass(frozen=True, slots=True)
-class AbbreviatedNameSettings:
+class AbbreviatedNameSettings(NamedTuple):
     """Use of the readings of an abbreviated name."""
 
     max_tokens: int
@@ -90,15 +88,13 @@ class AbbreviatedNameSettings:
     unmatched_weight: float
 
 
-@dataclass(frozen=True, slots=True)
-class ConceptSettings:
+class ConceptSettings(NamedTuple):
     """Confidence of recognised concepts."""
 
     max_share: float
 
 
-@dataclass(frozen=True, slots=True)
-class CombinationSettings:
+class CombinationSettings(NamedTuple):
     """Product of experts of words and context."""
 
     word_floor: float
@@ -112,8 +108,7 @@ class CombinationSettings:
     max_classes: int
 
 
-@dataclass(frozen=True, slots=True)
-class VoteSettings:
+class VoteSettings(NamedTuple):
     """Votes of neighbouring objects."""
 
     min_score: float
@@ -130,23 +125,20 @@ class VoteSettings:
     max_placed: int
 
 
-@dataclass(frozen=True, slots=True)
-class CopySettings:
+class CopySettings(NamedTuple):
     """Agreement of copies of one asset."""
 
     size_distance: float
     min_vote_ratio: float
 
 
-@dataclass(frozen=True, slots=True)
-class AbstentionSettings:
+class AbstentionSettings(NamedTuple):
     """Abstention to a superclass."""
 
     score_power: float
 
 
-@dataclass(frozen=True, slots=True)
-class ConfidenceSettings:
+class ConfidenceSettings(NamedTuple):
     """Features of the calibrated confidence."""
 
     posterior_floor: float
@@ -156,8 +148,7 @@ class ConfidenceSettings:
     prior_answers: float
 
 
-@dataclass(frozen=True, slots=True)
-class TermSettings:
+class TermSettings(NamedTuple):
     """Weights of terms by origin."""
 
     label_weight: float
@@ -167,8 +158,7 @@ class TermSettings:
     listed_weight: float
 
 
-@dataclass(frozen=True, slots=True)
-class AlignmentSettings:
+class AlignmentSettings(NamedTuple):
     """Alignment of terms with senses."""
 
     max_code_letters: int
@@ -179,15 +169,13 @@ class AlignmentSettings:
     listed_confidence: float
 
 
-@dataclass(frozen=True, slots=True)
-class RouteSettings:
+class RouteSettings(NamedTuple):
     """Features of routes."""
 
     max_steps: int
 
 
-@dataclass(frozen=True, slots=True)
-class MatchingSettings:
+class MatchingSettings(NamedTuple):
     """Scores of matches."""
 
     term_score: float
@@ -202,8 +190,7 @@ class MatchingSettings:
     classifier_weight: float
 
 
-@dataclass(frozen=True, slots=True)
-class SimilaritySettings:
+class SimilaritySettings(NamedTuple):
     """Similarity of whole names to the nouns that a language model named."""
 
     weight: float
@@ -213,8 +200,7 @@ class SimilaritySettings:
     letters_value: float
 
 
-@dataclass(frozen=True, slots=True)
-class HeadNounSettings:
+class HeadNounSettings(NamedTuple):
     """Choice of the head noun."""
 
     corrected_factor: float
@@ -229,8 +215,7 @@ class HeadNounSettings:
     min_place_size: float
 
 
-@dataclass(frozen=True, slots=True)
-class ClassifierSettings:
+class ClassifierSettings(NamedTuple):
     """Features of the name classifier."""
 
     max_classes: int
@@ -241,8 +226,7 @@ class ClassifierSettings:
     beginning_letters: int
 
 
-@dataclass(frozen=True, slots=True)
-class DomainFrequency:
+class DomainFrequency(NamedTuple):
     """Frequency of objects in scenes by WordNet domain."""
 
     artifact: float
@@ -266,24 +250,21 @@ class DomainFrequency:
         return frequency
 
 
-@dataclass(frozen=True, slots=True)
-class SenseSettings:
+class SenseSettings(NamedTuple):
     """Prior of senses."""
 
     domain_power: float
     rank_decay: float
 
 
-@dataclass(frozen=True, slots=True)
-class WordPriorSettings:
+class WordPriorSettings(NamedTuple):
     """Prior of words."""
 
     frequency_power: float
     home_label_share: float
 
 
-@dataclass(frozen=True, slots=True)
-class SizeSettings:
+class SizeSettings(NamedTuple):
     """Likelihood of sizes."""
 
     min_extent: float
@@ -293,8 +274,7 @@ class SizeSettings:
     broad_share: float
 
 
-@dataclass(frozen=True, slots=True)
-class PlaceSettings:
+class PlaceSettings(NamedTuple):
     """Likelihood of places."""
 
     count_elsewhere: float
@@ -305,8 +285,7 @@ class PlaceSettings:
     clear_probability: float
 
 
-@dataclass(frozen=True, slots=True)
-class StanceSettings:
+class StanceSettings(NamedTuple):
     """Likelihood of stances."""
 
     order_shares: tuple[float, ...]
@@ -326,8 +305,7 @@ class StanceSettings:
     chance_equal_share: float
 
 
-@dataclass(frozen=True, slots=True)
-class ReadingSettings:
+class ReadingSettings(NamedTuple):
     """Tokens of names."""
 
     min_noun_letters: int
@@ -336,8 +314,7 @@ class ReadingSettings:
     max_unit_letters: int
 
 
-@dataclass(frozen=True, slots=True)
-class ConventionSettings:
+class ConventionSettings(NamedTuple):
     """Prefixes that the names of a stage share."""
 
     min_share: float
@@ -345,8 +322,7 @@ class ConventionSettings:
     min_object_share: float
 
 
-@dataclass(frozen=True, slots=True)
-class SpellingSettings:
+class SpellingSettings(NamedTuple):
     """Correction of spelling."""
 
     min_long_letters: int
@@ -362,8 +338,7 @@ class SpellingSettings:
     max_missing_vowels: int
 
 
-@dataclass(frozen=True, slots=True)
-class ModifierSettings:
+class ModifierSettings(NamedTuple):
     """Words that modify."""
 
     adjective_share: float
@@ -376,8 +351,7 @@ class ModifierSettings:
     max_last_odds: float
 
 
-@dataclass(frozen=True, slots=True)
-class FrequencySettings:
+class FrequencySettings(NamedTuple):
     """Counts of words."""
 
     bigram_pseudo_count: int

@@ -1,7 +1,7 @@
 """Settings of the language-model grounder, from `knowledge/settings/llm.toml`."""
 
-from dataclasses import dataclass
 from decimal import Decimal
+from typing import NamedTuple
 
 from usd2kg.knowledge import read_settings
 
@@ -25,8 +25,7 @@ __all__ = [
 ]
 
 
-@dataclass(frozen=True, slots=True)
-class DegenerationSettings:
+class DegenerationSettings(NamedTuple):
     """Criteria for a degenerate completion."""
 
     window_characters: int
@@ -39,8 +38,7 @@ class DegenerationSettings:
     min_growing_run: int
 
 
-@dataclass(frozen=True, slots=True)
-class DecodingSettings:
+class DecodingSettings(NamedTuple):
     """Constrained decoding of a model in this process."""
 
     max_text_tokens: int
@@ -48,15 +46,13 @@ class DecodingSettings:
     max_predictions: int
 
 
-@dataclass(frozen=True, slots=True)
-class SamplingSettings:
+class SamplingSettings(NamedTuple):
     """Sampling of several completions of a prompt."""
 
     temperature: float
 
 
-@dataclass(frozen=True, slots=True)
-class BatchSettings:
+class BatchSettings(NamedTuple):
     """Batch jobs."""
 
     price_percent: int
@@ -67,8 +63,7 @@ class BatchSettings:
         return Decimal(self.price_percent) / 100
 
 
-@dataclass(frozen=True, slots=True)
-class EstimateSettings:
+class EstimateSettings(NamedTuple):
     """Estimates of token counts, for use before a server has counted them."""
 
     bytes_per_token: int
@@ -77,8 +72,7 @@ class EstimateSettings:
     noun_tokens: int
 
 
-@dataclass(frozen=True, slots=True)
-class MemberSettings:
+class MemberSettings(NamedTuple):
     """Questions about the things that belong to each class."""
 
     classes_per_prompt: int
@@ -86,8 +80,7 @@ class MemberSettings:
     max_noun_characters: int
 
 
-@dataclass(frozen=True, slots=True)
-class ConceptQuestionSettings:
+class ConceptQuestionSettings(NamedTuple):
     """Questions about groups of objects that share a concept."""
 
     concepts_per_prompt: int
@@ -99,8 +92,7 @@ class ConceptQuestionSettings:
     max_candidates: int
 
 
-@dataclass(frozen=True, slots=True)
-class CommandSettings:
+class CommandSettings(NamedTuple):
     """Texts that may command the model."""
 
     max_words: int

@@ -3,15 +3,14 @@
 The TOML file documents each value beside it: unit, meaning and origin.
 """
 
-from dataclasses import dataclass
+from typing import NamedTuple
 
 from usd2kg.knowledge import read_settings
 
 __all__ = ["CHANNEL", "SHORTENING", "ChannelSettings", "ShorteningSettings"]
 
 
-@dataclass(frozen=True, slots=True)
-class ChannelSettings:
+class ChannelSettings(NamedTuple):
     """Noisy channel of abbreviations."""
 
     bigram_share: float
@@ -41,8 +40,7 @@ class ChannelSettings:
     common_form: float
 
 
-@dataclass(frozen=True, slots=True)
-class ShorteningSettings:
+class ShorteningSettings(NamedTuple):
     """Ways of shortening words."""
 
     full_share: float
