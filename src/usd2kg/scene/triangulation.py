@@ -48,8 +48,10 @@ class Faces(NamedTuple):
     def digest(self) -> bytes:
         """Return a hash that equal faces share."""
         arrays = (self.points, self.counts, self.indices)
-        shapes = repr((self.is_left_handed, *(array.shape for array in arrays)))
-        return hashlib.blake2b(b"".join((shapes.encode(), *(array.tobytes() for array in arrays)))).digest()
+        digest = hashlib.blake2b(repr((self.is_left_handed, *(array.shape for array in arrays))).encode())
+        for array in arrays:
+            digest.update(np.ascontiguousarray(array).data)
+        return digest.digest()
 
 
 def read_mesh(prim: Any, time: Usd.TimeCode) -> tuple[Points, Triangles] | None:

@@ -74,6 +74,9 @@ def _cross_some(points: Sequence[Array], surfaces: Sequence[Surface], axis: int)
     order, begin, end = _spans(
         lines_first, np.repeat(np.arange(len(surfaces)), count), lower[:, first], upper[:, first], owner
     )
+    # Few triangles are over a line, and what a crossing needs of one takes longest.
+    met = np.flatnonzero(end > begin)
+    near, lower, upper, begin, end = near[met], lower[met], upper[met], begin[met], end[met]
     triangles = _Triangles.of(np.concatenate([surface.corners for surface in surfaces])[near], (axis, first, second))
     low, high = np.ascontiguousarray(lower[:, second]), np.ascontiguousarray(upper[:, second])
     tests = np.cumsum(end - begin)

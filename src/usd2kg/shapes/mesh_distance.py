@@ -14,6 +14,8 @@ Array = NDArray[np.float64]
 _QUADS = np.array([[0, 1, 3, 2], [4, 6, 7, 5], [0, 4, 5, 1], [2, 3, 7, 6], [0, 2, 6, 4], [1, 5, 7, 3]])
 _BOX = np.concatenate([_QUADS[:, [0, 1, 2]], _QUADS[:, [0, 2, 3]]])
 """Corners of the triangles of a box; bit 2 of a corner is x, bit 1 is y, bit 0 is z."""
+_SPREAD = np.sum([(np.arange(1024) >> bit & 1) << 3 * bit for bit in range(10)], axis=0)
+"""10-bit number → its bits at a distance of three."""
 _BLOCK = 64
 """Triangles that are compared at once."""
 
@@ -36,8 +38,8 @@ def mesh_distance(one: Solid, other: Solid, reach: float) -> float:
     The depth of a penetration is how far the box of either object reaches into the near triangles of the other, along
     the axis where that is least.
     """
-    near = [_near_corners(one, other, reach), _near_corners(other, one, reach)]
-    if not len(near[0]) or not len(near[1]):
+    near = [_near_boxes(one, other, reach), _near_boxes(other, one, reach)]
+    if not len(near[0].lower) or not len(near[1].lower):
         return np.inf
     distance = _between_boxes(*near)
     if distance > reach:
@@ -45,21 +47,26 @@ def mesh_distance(one: Solid, other: Solid, reach: float) -> float:
     return distance if distance > 0 else -_depth(one, other, near)
 
 
-def _near_corners(solid: Solid, other: Solid, reach: float) -> Array:
-    lower, upper = other.lower - reach, other.upper + reach
-    if solid.surface is None:
-        corners = _corners_of_box(solid)
-        is_near = (corners.min(axis=1) <= upper) & (corners.max(axis=1) >= lower)
-    else:
-        corners = solid.surface.corners
-        is_near = (solid.surface.lower <= upper) & (solid.surface.upper >= lower)
-    return np.asarray(corners[is_near.all(axis=1)])
+class _Boxes(NamedTuple):
+    """The boxes of triangles."""
+
+    lower: Array
+    """(n, 3)"""
+    upper: Array
 
 
-def _corners_of_box(solid: Solid) -> Array:
+def _near_boxes(solid: Solid, other: Solid, reach: float) -> _Boxes:
+    lower, upper = (
+        _triangle_boxes_of_box(solid) if solid.surface is None else (solid.surface.lower, solid.surface.upper)
+    )
+    is_near = ((lower <= other.upper + reach) & (upper >= other.lower - reach)).all(axis=1)
+    return _Boxes(lower[is_near], upper[is_near])
+
+
+def _triangle_boxes_of_box(solid: Solid) -> _Boxes:
     ends = np.stack([solid.lower, solid.upper])
-    corners = np.array([[ends[i >> 2 & 1, 0], ends[i >> 1 & 1, 1], ends[i & 1, 2]] for i in range(8)])
-    return np.asarray(corners[_BOX])
+    corners = np.array([[ends[i >> 2 & 1, 0], ends[i >> 1 & 1, 1], ends[i & 1, 2]] for i in range(8)])[_BOX]
+    return _Boxes(corners.min(axis=1), corners.max(axis=1))
 
 
 class _Blocks(NamedTuple):
@@ -73,8 +80,8 @@ class _Blocks(NamedTuple):
     outer_upper: Array
 
 
-def _between_boxes(one: Array, other: Array) -> float:
-    """Return the least distance between the boxes of triangles (n, 3, 3) and (m, 3, 3); 0 if two overlap.
+def _between_boxes(one: _Boxes, other: _Boxes) -> float:
+    """Return the least distance between boxes; 0 if two overlap.
 
     Pairs of blocks are compared in the order of the distance of their boxes, which bounds that of what is in them.
     """
@@ -96,8 +103,8 @@ def _box_distances(lower: Array, upper: Array, other_lower: Array, other_upper: 
     return np.asarray(np.sqrt((gaps**2).sum(axis=2)))
 
 
-def _make_blocks(corners: Array) -> _Blocks:
-    lower, upper = corners.min(axis=1), corners.max(axis=1)
+def _make_blocks(boxes: _Boxes) -> _Blocks:
+    lower, upper = boxes
     order = np.argsort(_morton_codes((lower + upper) / 2), kind="stable")
     # The last block is filled up with its last box.
     order = np.pad(order, (0, -len(order) % _BLOCK), mode="edge").reshape(-1, _BLOCK)
@@ -108,18 +115,14 @@ def _morton_codes(points: Array) -> NDArray[np.int64]:
     """Return the positions of points (n, 3) on a Z-order curve through their box, 10 bits an axis (Morton 1966)."""
     lowest = points.min(axis=0)
     scale = np.maximum(points.max(axis=0) - lowest, 1e-12)
-    cells = np.minimum((points - lowest) / scale * 1024, 1023).astype(np.int64)
-    codes = np.zeros(len(points), np.int64)
-    for bit in range(10):
-        for axis in range(3):
-            codes |= (cells[:, axis] >> bit & 1) << (3 * bit + axis)
-    return codes
+    x, y, z = np.minimum((points - lowest) / scale * 1024, 1023).astype(np.int64).T
+    return np.asarray(_SPREAD[x] | _SPREAD[y] << 1 | _SPREAD[z] << 2)
 
 
-def _depth(one: Solid, other: Solid, near: list[Array]) -> float:
+def _depth(one: Solid, other: Solid, near: list[_Boxes]) -> float:
     depths = []
-    for solid, corners in ((one, near[1]), (other, near[0])):
-        first = np.clip(corners.min(axis=(0, 1)), solid.lower, solid.upper)
-        last = np.clip(corners.max(axis=(0, 1)), solid.lower, solid.upper)
+    for solid, boxes in ((one, near[1]), (other, near[0])):
+        first = np.clip(boxes.lower.min(axis=0), solid.lower, solid.upper)
+        last = np.clip(boxes.upper.max(axis=0), solid.lower, solid.upper)
         depths.append(float(np.minimum(solid.upper - first, last - solid.lower).min()))
     return max(min(depths), 0.0)

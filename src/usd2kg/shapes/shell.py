@@ -38,10 +38,11 @@ def shell_boxes(surface: Surface) -> list[Corners]:
     The cells of a grid that the surface passes through are joined to blocks (greedy meshing), and blocks are merged
     where their common box is hardly larger.
     """
-    extent = np.ptp(surface.corners, axis=(0, 1))
+    corners = surface.corners
+    extent = np.ptp(corners, axis=(0, 1))
     cell = max(float(extent.max()) / SHELL.cells, SHELL.min_cell)
     while True:
-        cells = _sample_cells(surface, cell)
+        cells = _sample_cells(corners, cell)
         blocks = min((list(_blocks(cells.is_met, order)) for order in permutations(range(3))), key=len)
         if len(blocks) <= SHELL.max_blocks:
             break
@@ -53,9 +54,9 @@ def shell_boxes(surface: Surface) -> list[Corners]:
     return sorted(boxes, key=lambda box: (*box[0].tolist(), *box[1].tolist())) if is_saving else [whole]
 
 
-def _sample_cells(surface: Surface, cell: float) -> _Cells:
+def _sample_cells(corners: Array, cell: float) -> _Cells:
     # Two samples per cell leave no hole where a triangle crosses it obliquely.
-    points = _samples(surface.corners, cell / 2)
+    points = _samples(corners, cell / 2)
     places = [((column - column.min()) / cell + _SHIFT).astype(np.int64) for column in points]
     shape = tuple(int(place.max()) + 1 for place in places)
     which = np.ravel_multi_index(places, shape)
