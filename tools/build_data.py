@@ -21,6 +21,7 @@ BUILDERS = {
     "categories.csv": ("tools.build_categories", "build_categories"),
     "class_members.csv": ("tools.build_class_members", "build_class_members"),
     "home.ttl": ("tools.builtin_tboxes", "build_home_tbox"),
+    "home_names.csv": ("tools.build_home_names", "build_home_names"),
     "place_nouns.csv": ("tools.build_place_nouns", "build_place_nouns"),
     "places.ttl": ("tools.builtin_tboxes", "build_places_tbox"),
 }

@@ -17,7 +17,7 @@ def home_names() -> Mapping[ClassIRI, tuple[str, ...]]:
     names = {cls.iri: [cls.label, *cls.alt_labels] for cls in home.classes}
     by_local_name = {cls.local_name: cls.iri for cls in home.classes}
     for row in read_rows("home_names.csv"):
-        names[by_local_name[row["class"]]].append(row["name"])
+        names[by_local_name[row["class"]]] += row["names"].split("|")
     return {iri: tuple(found) for iri, found in names.items()}
 
 

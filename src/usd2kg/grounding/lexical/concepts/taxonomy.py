@@ -9,6 +9,7 @@ from typing import NamedTuple
 from urllib.parse import quote, unquote
 
 import numpy as np
+import numpy.typing as npt
 
 from usd2kg.grounding.lexical.concepts.taxonomy_file import TaxonomyColumns, parse_taxonomy
 from usd2kg.knowledge import read_bytes
@@ -86,6 +87,7 @@ class Taxonomy:
         self._senses: dict[str, tuple[Sense, ...]] = {}
         self._above: dict[int, tuple[int, ...]] = {}
         self._singular = lru_cache(maxsize=16384)(self._find_singular)
+        self._synset_at = lru_cache(maxsize=16384)(self._find_synset)
         self._read_offsets = read_offsets
         self._read_labels = read_labels
 
@@ -146,7 +148,7 @@ class Taxonomy:
     def find_concept(self, iri: str) -> int | None:
         """Return the synset with an IRI; None if there is none."""
         if found := re.fullmatch(re.escape(WORDNET) + r"(\d{8})-n", iri):
-            return self._synsets_by_offset.get(found[1])
+            return self._synset_at(int(found[1]))
         if not iri.startswith(CONCEPT):
             return None
         name = unquote(iri.removeprefix(CONCEPT)).replace("_", " ")
@@ -158,10 +160,14 @@ class Taxonomy:
         # Read on first use: only concepts in results need IRIs.
         return self._read_offsets()
 
+    def _find_synset(self, offset: int) -> int | None:
+        found = np.flatnonzero(self._offset_numbers == offset)
+        return int(found[-1]) if len(found) else None
+
     @cached_property
-    def _synsets_by_offset(self) -> dict[str, int]:
-        starts = range(0, len(self._offsets), _OFFSET_DIGITS)
-        return {self._offsets[at : at + _OFFSET_DIGITS]: synset for synset, at in enumerate(starts)}
+    def _offset_numbers(self) -> npt.NDArray[np.int32]:
+        digits = np.frombuffer(self._offsets.encode(), np.uint8).reshape(-1, _OFFSET_DIGITS) - ord("0")
+        return digits @ 10 ** np.arange(_OFFSET_DIGITS, dtype=np.int32)[::-1]
 
     def label(self, synset: int) -> str:
         """Return the noun that names use for a synset most often, with its spaces: trash can, not ashcan."""
