@@ -9,7 +9,7 @@ import typer
 from typer.testing import CliRunner
 
 from tools.generated_docs import DOCS, write_or_check
-from usd2kg.cli.app import app
+from usd2kg.cli.app import make_app
 
 INTRODUCTION = """\
 # Command line
@@ -36,8 +36,8 @@ def walk_commands(command: object, names: tuple[str, ...] = ()) -> Iterator[tupl
 def build_page() -> str:
     """Return the page."""
     sections = [INTRODUCTION]
-    for names in walk_commands(typer.main.get_command(app)):
-        result = CliRunner().invoke(app, [*names, "--help"], prog_name="usd2kg", env={"COLUMNS": "100"})
+    for names in walk_commands(typer.main.get_command(make_app())):
+        result = CliRunner().invoke(make_app(), [*names, "--help"], prog_name="usd2kg", env={"COLUMNS": "100"})
         if result.exit_code:
             raise SystemExit(f"{' '.join(names)}: {result.output}")
         sections.append(f"## {' '.join(['usd2kg', *names])}\n\n```text\n{result.output.strip()}\n```\n")

@@ -7,7 +7,7 @@ from typer.testing import CliRunner
 
 from tests.graph.records import build_graph, open_store, thing
 from usd2kg.assistant import InterpretedAnswer, ask_offline
-from usd2kg.cli.app import app
+from usd2kg.cli.app import make_app
 from usd2kg.errors import GraphError
 from usd2kg.graph import write_graph
 from usd2kg.ontology import TBox
@@ -93,6 +93,6 @@ def test_without_an_older_version_the_answer_says_what_to_pass(versions: tuple[P
 
 def test_the_command_compares_files(versions: tuple[Path, Path, GraphStore]):
     old, new, _ = versions
-    done = CliRunner().invoke(app, ["ask", str(new), "what moved?", "--since", str(old)])
+    done = CliRunner().invoke(make_app(), ["ask", str(new), "what moved?", "--since", str(old)])
     assert done.exit_code == 0
     assert "1 moved: the bowl Cup by 50 cm." in done.output

@@ -7,7 +7,7 @@ from typing import Any
 
 import typer
 
-from usd2kg.cli.app import app
+from usd2kg.cli.app import make_app
 from usd2kg.graph.formats.serialize import GRAPH_FORMATS
 from usd2kg.graph.rdf_document import RDF_FORMATS
 from usd2kg.relations import ALL_KINDS, DEFAULT_KINDS, VIEWPOINT_KINDS
@@ -39,14 +39,14 @@ def parameters(command: Any, names: tuple[str, ...] = ()) -> Iterator[tuple[str,
 
 
 def test_every_parameter_has_a_help_text():
-    found = list(parameters(typer.main.get_command(app)))
+    found = list(parameters(typer.main.get_command(make_app())))
     assert len(found) > 100
     assert [(command, p.name) for command, p in found if not getattr(p, "help", None)] == []
 
 
 def test_help_texts_name_all_relations_and_formats():
     # The help texts are literals: the modules of these tables load numpy and OWL parsers, which no other command needs.
-    help_of = {(command, p.name): p.help for command, p in parameters(typer.main.get_command(app))}
+    help_of = {(command, p.name): p.help for command, p in parameters(typer.main.get_command(make_app()))}
     kinds = words_of(help_of["build", "relation_kinds"])
     assert set(ALL_KINDS) <= kinds
     assert set(ALL_KINDS) - set(VIEWPOINT_KINDS) - set(DEFAULT_KINDS) == {"between"}, (
@@ -64,7 +64,7 @@ def words_of(text: str) -> set[str]:
 
 def test_an_option_has_the_same_help_text_in_all_commands():
     texts = defaultdict(set)
-    for _, parameter in parameters(typer.main.get_command(app)):
+    for _, parameter in parameters(typer.main.get_command(make_app())):
         for name in parameter.opts:
             if name.startswith("--"):
                 texts[name].add(parameter.help)

@@ -11,7 +11,7 @@ import pytest
 import typer
 
 from tests.cli.conftest import Run
-from usd2kg.cli.app import app
+from usd2kg.cli.app import make_app
 from usd2kg.cli.options.bundles import OptionBundle
 from usd2kg.cli.options.common import BUILT_IN_ONTOLOGIES
 from usd2kg.cli.project_file import (
@@ -28,7 +28,7 @@ from usd2kg.query import load_graph
 
 OPTIONS: dict[str, CommandOption] = {
     option.key: option
-    for options in (find_global_options(app), *dict(walk_options(app)).values())
+    for options in (find_global_options(make_app()), *dict(walk_options(make_app())).values())
     for option in options
 }
 WITHOUT_A_KEY = {
@@ -43,7 +43,7 @@ WITHOUT_A_KEY = {
 
 def walk_commands(command: Any = None, words: tuple[str, ...] = ()) -> Iterator[tuple[tuple[str, ...], Any]]:
     """Yield each command and group, as the parser of the command line knows it."""
-    command = command or typer.main.get_command(app)
+    command = command or typer.main.get_command(make_app())
     yield words, command
     for name, below in getattr(command, "commands", {}).items():
         yield from walk_commands(below, (*words, name))
@@ -71,7 +71,7 @@ def write(text: str, folder: Path | None = None) -> Path:
 
 
 def arguments(*given: str) -> list[str]:
-    found = read_project_options(app, given)
+    found = read_project_options(make_app, given)
     return [*given] if found is None else [*found.arguments]
 
 
@@ -129,7 +129,7 @@ class TestEveryOption:
         chosen = COMMANDS[words]
         parser = chosen.make_parser(chosen.context_class(chosen, **chosen.context_settings))
         command = words or ("build",)
-        is_path = {option.key: option.is_path for option in dict(walk_options(app))[command]}
+        is_path = {option.key: option.is_path for option in dict(walk_options(make_app()))[command]}
         for option in options_of(words):
             key = option.opts[0].removeprefix("--")
             value = "true" if option.is_flag else '"7"'
@@ -138,7 +138,7 @@ class TestEveryOption:
             beside = ["--decisions=d.csv"] if key == "reviewer" else []
             beside += ["--color-by=class"] if words == ("render",) and key != "color-by" else []
             beside += ["--study"] if words == ("eval", "reproduce") and key != "study" else []
-            found = read_project_options(app, [*command, *beside, "scene"])
+            found = read_project_options(make_app, [*command, *beside, "scene"])
             assert found is not None, key
             assert found.keys == (key,)
             assert bool(found.global_options) == (not words)
@@ -167,10 +167,10 @@ class TestEveryOption:
 class TestGlobalOptions:
     def test_they_are_set_for_all_commands_or_one(self):
         write("no-color = true\n[studio]\nlog-format = 'json'")
-        found = read_project_options(app, ["studio", "s.usd"])
+        found = read_project_options(make_app, ["studio", "s.usd"])
         assert found is not None
         assert found.global_options == ("--no-color", "--log-format=json")
-        found = read_project_options(app, ["studio", "s.usd"], ["--log-format=text"])
+        found = read_project_options(make_app, ["studio", "s.usd"], ["--log-format=text"])
         assert found is not None
         assert found.global_options == ("--no-color",)
 
@@ -224,7 +224,7 @@ class TestWhere:
         scene = file.parent / "scenes" / "a.usd"
         scene.parent.mkdir()
         scene.touch()
-        found = read_project_options(app, ["build", str(scene)])
+        found = read_project_options(make_app, ["build", str(scene)])
         assert found is not None
         assert (found.file, found.keys) == (file.absolute(), ("base",))
 
@@ -360,7 +360,7 @@ class TestInit:
         file = tmp_path / "usd2kg.toml"
         options = [line for line in file.read_text("utf-8").splitlines() if " = " in line and line.startswith("# ")]
         file.write_text("\n".join(line.removeprefix("# ") for line in options), encoding="utf-8")
-        found = read_project_options(app, ["build", "s.usd"])
+        found = read_project_options(make_app, ["build", "s.usd"])
         assert found is not None
         assert {"ontology", "include", "every-prim", "viewpoint"} <= set(found.keys)
 

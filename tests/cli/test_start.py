@@ -42,6 +42,19 @@ def test_help_loads_no_heavy_module(command: list[str]):
     assert done.stdout.splitlines()[-1] == "LOADED []"
 
 
+def test_a_call_loads_only_the_command_that_it_names():
+    code = HELP.replace("heavy = {", "heavy = {'usd2kg.cli.build', 'usd2kg.cli.studio', 'usd2kg.cli.evaluate', ")
+    assert process("build", code=code).stdout.splitlines()[-1] == "LOADED ['usd2kg.cli.build']"
+    every = process(code=code).stdout.splitlines()[-1]
+    assert every == "LOADED ['usd2kg.cli.build', 'usd2kg.cli.evaluate', 'usd2kg.cli.studio']"
+
+
+def test_a_misspelt_command_names_the_one_that_is_meant():
+    done = process("biuld", "s.usd")
+    assert done.returncode == 2
+    assert "build" in done.stderr
+
+
 def test_short_and_long_help_option_are_the_same(run: Run):
     done = run("build", "--help")
     assert (done.code, done.err) == (0, "")

@@ -11,7 +11,7 @@ import pytest
 from typer.testing import CliRunner
 
 from tests.graph.records import build_graph, open_store, thing
-from usd2kg.cli.app import app
+from usd2kg.cli.app import make_app
 from usd2kg.diagrams import draw_room, draw_surroundings, rasterize, to_png
 from usd2kg.diagrams.svg import FONT, shorten, text_width
 from usd2kg.errors import OutputError
@@ -138,13 +138,13 @@ class TestCommand:
 
     def test_writes_svg(self, graph: Path, tmp_path: Path):
         target = tmp_path / "table.svg"
-        result = CliRunner().invoke(app, ["graph", "draw", str(graph), "table", "-o", str(target)])
+        result = CliRunner().invoke(make_app(), ["graph", "draw", str(graph), "table", "-o", str(target)])
         assert result.exit_code == 0
         assert "160 × 80 × 70 cm" in contents(target.read_text("utf-8"))
 
     def test_writes_png(self, graph: Path, tmp_path: Path):
         target = tmp_path / "table.png"
-        result = CliRunner().invoke(app, ["graph", "draw", str(graph), "table", "-o", str(target)])
+        result = CliRunner().invoke(make_app(), ["graph", "draw", str(graph), "table", "-o", str(target)])
         assert result.exit_code == 0
         assert target.read_bytes().startswith(b"\x89PNG\r\n\x1a\n")
 
@@ -158,7 +158,7 @@ class TestCommand:
     )
     def test_rejects_what_cannot_be_drawn(self, graph: Path, tmp_path: Path, arguments: list[str], message: str):
         arguments[-1] = str(tmp_path / arguments[-1])
-        result = CliRunner().invoke(app, ["graph", "draw", str(graph), *arguments])
+        result = CliRunner().invoke(make_app(), ["graph", "draw", str(graph), *arguments])
         assert message in str(result.exception)
 
 

@@ -11,7 +11,7 @@ from playwright.sync_api import Browser, Page, expect
 from tests.browser import BROWSER_MARKS, close_page, open_page
 from tests.grounding.llm.servers import Reply, openai_reply, refuse, serve
 from tests.studio.conftest import running_studio
-from usd2kg.cli.app import app
+from usd2kg.cli.app import make_app
 
 pytestmark = BROWSER_MARKS
 
@@ -30,7 +30,9 @@ def mapping(stage: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Pat
     replies = [answer("Floor"), refuse(400, "too long"), answer("Teapot9"), repaired, answer("none")]
     with serve(*replies) as server:
         model = f"llm-B:openai:m@{server.url}/v1"
-        app(["ground", str(stage), "--grounder", model, "--concurrency", "1", "-o", str(target)], standalone_mode=False)
+        make_app()(
+            ["ground", str(stage), "--grounder", model, "--concurrency", "1", "-o", str(target)], standalone_mode=False
+        )
     return target
 
 

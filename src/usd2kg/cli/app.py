@@ -9,36 +9,13 @@ import io
 import logging
 import sys
 import traceback
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
+from importlib import import_module
 from typing import Annotated
 
 import typer
 from typer import Option
 
-from usd2kg.cli import (
-    assistant,
-    batch,
-    build,
-    completions,
-    convert,
-    demo,
-    diff,
-    doctor,
-    evaluate,
-    graph,
-    ground,
-    init,
-    inspect,
-    label,
-    licences,
-    ontology,
-    query,
-    render,
-    serve,
-    store,
-    studio,
-    validate,
-)
 from usd2kg.cli.log_format import set_up_logging
 from usd2kg.cli.output import emit, notify, to_single_line
 from usd2kg.cli.project_file import read_project_options
@@ -46,7 +23,7 @@ from usd2kg.cli.terminal import forbid_colors
 from usd2kg.errors import Usd2kgError
 from usd2kg.tracing import set_up_tracing
 
-__all__ = ["app", "main"]
+__all__ = ["main", "make_app"]
 
 _EXHAUSTED = {
     MemoryError: "not enough memory for this input; try a part of it (--include, --objects)",
@@ -54,37 +31,61 @@ _EXHAUSTED = {
 }
 """Exception → message, so that the user gets one line for any input."""
 
-app = typer.Typer(
-    name="usd2kg",
-    no_args_is_help=True,
-    pretty_exceptions_enable=False,
-    rich_markup_mode=None,
-    context_settings={"help_option_names": ["-h", "--help"]},
-    help="Turn an OpenUSD scene into a knowledge graph: ground every object to a class of an OWL ontology.",
-)
-app.command("build")(build.build_command)
-app.command("batch")(batch.batch_command)
-app.command("inspect")(inspect.inspect_command)
-app.command("convert")(convert.convert_command)
-app.command("ground")(ground.ground_command)
-app.command("query")(query.query_command)
-app.command("ask")(assistant.ask_command)
-app.command("validate")(validate.validate_command)
-app.command("diff")(diff.diff_command)
-app.command("render")(render.render_command)
-app.command("mcp")(assistant.mcp_command)
-app.command("demo")(demo.demo_command)
-app.command("doctor")(doctor.doctor_command)
-app.command("licences")(licences.licences_command)
-app.command("init")(init.make_init_command(app))
-app.add_typer(graph.app, name="graph")
-app.add_typer(label.app, name="label")
-app.command("serve")(serve.serve_command)
-app.command("studio")(studio.studio_command)
-app.add_typer(store.app, name="store")
-app.add_typer(ontology.app, name="ontology")
-app.add_typer(evaluate.app, name="eval")
-app.add_typer(completions.app, name="completions")
+_COMMANDS = {
+    "build": "build",
+    "batch": "batch",
+    "inspect": "inspect",
+    "convert": "convert",
+    "ground": "ground",
+    "query": "query",
+    "ask": "assistant",
+    "validate": "validate",
+    "diff": "diff",
+    "render": "render",
+    "mcp": "assistant",
+    "demo": "demo",
+    "doctor": "doctor",
+    "licences": "licences",
+    "init": "init",
+    "serve": "serve",
+    "studio": "studio",
+}
+"""Command → module of `usd2kg.cli` with its function, `build_command` for build; in the order of the help."""
+_GROUPS = {
+    "graph": "graph",
+    "label": "label",
+    "store": "store",
+    "ontology": "ontology",
+    "eval": "evaluate",
+    "completions": "completions",
+}
+"""Group of commands → module with its `app`."""
+
+
+def make_app(arguments: Iterable[str] = ()) -> typer.Typer:
+    """Return the command line for a call: with the command or group that it names, else with all.
+
+    Most commands run in less time than it takes to import the others.
+
+    Args:
+        arguments: the arguments of the call, without global options.
+    """
+    app = typer.Typer(
+        name="usd2kg",
+        no_args_is_help=True,
+        pretty_exceptions_enable=False,
+        rich_markup_mode=None,
+        context_settings={"help_option_names": ["-h", "--help"]},
+        help="Turn an OpenUSD scene into a knowledge graph: ground every object to a class of an OWL ontology.",
+    )
+    app.callback()(_options)
+    first = next(iter(arguments), None)
+    names = {first} if first in _COMMANDS or first in _GROUPS else {*_COMMANDS, *_GROUPS}
+    for name in [name for name in _COMMANDS if name in names]:
+        app.command(name)(getattr(import_module(f"usd2kg.cli.{_COMMANDS[name]}"), f"{name}_command"))
+    for name in [name for name in _GROUPS if name in names]:
+        app.add_typer(import_module(f"usd2kg.cli.{_GROUPS[name]}").app, name=name)
+    return app
 
 
 def _print_version(is_wanted: bool) -> None:
@@ -95,7 +96,6 @@ def _print_version(is_wanted: bool) -> None:
         raise typer.Exit
 
 
-@app.callback()
 def _options(
     version: Annotated[
         bool, Option("--version", help="Print the version and exit.", is_eager=True, callback=_print_version)
@@ -137,7 +137,7 @@ def main() -> None:
         _set_up_output(global_options)
         if "--no-project-file" not in global_options:
             global_options, arguments = _with_project_options(global_options, arguments)
-        app(args=[*global_options, *arguments], prog_name="usd2kg")
+        make_app(arguments)(args=[*global_options, *arguments], prog_name="usd2kg")
     except Usd2kgError as error:
         if "--verbose" in global_options:
             traceback.print_exc()
@@ -172,7 +172,7 @@ def _split_global_options(arguments: Sequence[str]) -> tuple[list[str], list[str
 
 def _with_project_options(global_options: list[str], arguments: list[str]) -> tuple[list[str], list[str]]:
     """Return global options and arguments with the options of `usd2kg.toml`, which are announced on stderr."""
-    found = read_project_options(app, arguments, global_options)
+    found = read_project_options(make_app, arguments, global_options)
     if found is None:
         return global_options, arguments
     _set_up_output(found.global_options)

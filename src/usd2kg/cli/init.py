@@ -1,7 +1,6 @@
 """usd2kg init: write a file of options for a project."""
 
 import textwrap
-from collections.abc import Callable
 from pathlib import Path
 from typing import Annotated
 
@@ -18,7 +17,7 @@ from usd2kg.cli.project_file import (
 )
 from usd2kg.errors import OutputError
 
-__all__ = ["make_init_command"]
+__all__ = ["init_command"]
 
 _INTRODUCTION = """\
 # Options of usd2kg for the scenes in this folder and below. Remove the # before an option to set it.
@@ -52,24 +51,21 @@ _EXAMPLES = {
 _WIDTH = 100
 
 
-def make_init_command(app: typer.Typer) -> Callable[..., None]:
-    """Return the command that writes the options of an application's commands."""
+def init_command(
+    folder: Annotated[Path, Argument(help="Folder of the project; default: the current folder.")] = Path(),
+) -> None:
+    """Write usd2kg.toml, where a project sets options once for all commands."""
+    from usd2kg.cli.app import make_app  # noqa: PLC0415 - it imports this module
 
-    def init_command(
-        folder: Annotated[Path, Argument(help="Folder of the project; default: the current folder.")] = Path(),
-    ) -> None:
-        """Write usd2kg.toml, where a project sets options once for all commands."""
-        file = folder / PROJECT_OPTIONS_FILE
-        try:
-            with file.open("x", encoding="utf-8") as new:
-                new.write(_content(app))
-        except FileExistsError:
-            raise OutputError(f"{file}: exists already; edit it") from None
-        except OSError as error:
-            raise OutputError(f"{file}: cannot be written ({error.strerror}); choose another folder") from error
-        notify(f"{file}: written; remove the # before the options to set")
-
-    return init_command
+    file = folder / PROJECT_OPTIONS_FILE
+    try:
+        with file.open("x", encoding="utf-8") as new:
+            new.write(_content(make_app()))
+    except FileExistsError:
+        raise OutputError(f"{file}: exists already; edit it") from None
+    except OSError as error:
+        raise OutputError(f"{file}: cannot be written ({error.strerror}); choose another folder") from error
+    notify(f"{file}: written; remove the # before the options to set")
 
 
 def _content(app: typer.Typer) -> str:

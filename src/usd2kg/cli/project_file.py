@@ -9,7 +9,7 @@ import difflib
 import inspect
 import os
 import tomllib
-from collections.abc import Container, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Container, Iterable, Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import Any, NamedTuple, get_args, get_origin
 
@@ -84,7 +84,7 @@ class ProjectOptions(NamedTuple):
 
 
 def read_project_options(
-    app: typer.Typer, arguments: Sequence[str], global_options: Sequence[str] = ()
+    make_app: Callable[[Sequence[str]], typer.Typer], arguments: Sequence[str], global_options: Sequence[str] = ()
 ) -> ProjectOptions | None:
     """Return the options that the nearest `usd2kg.toml` sets for a call; None if there are none.
 
@@ -92,13 +92,14 @@ def read_project_options(
     folder, and continues in the parent folders.
 
     Args:
-        app: the command line.
+        make_app: returns the command line for the arguments of a call, with all commands if there are none.
         arguments: the arguments of the call, without global options.
         global_options: the global options of the call.
 
     Raises:
         Usd2kgError: the file does not parse, or an option is unknown, of the wrong type, or not allowed there.
     """
+    app = make_app(arguments)
     shared = find_global_options(app)
     commands = {command: [*shared, *options] for command, options in walk_options(app)}
     command, given = _split_command(app, arguments, commands)
@@ -108,7 +109,7 @@ def read_project_options(
     if file is None:
         return None
     tables = _read(file)
-    _check_keys(file, tables, commands)
+    _check_keys(file, tables, {command: [*shared, *options] for command, options in walk_options(make_app(()))})
     is_trusted = Path.cwd().is_relative_to(file.parent)
     keys: list[str] = []
     added: list[str] = []
