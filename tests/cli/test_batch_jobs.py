@@ -9,6 +9,7 @@ import signal
 import subprocess
 import sys
 from collections.abc import Iterator
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
@@ -28,7 +29,7 @@ GOLD = "path,class\n/Room/Table_1,Table\n/Room/coffee_mug,Cup\n/Room/FruitBowl,B
 def own_cache(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setenv("USD2KG_CACHE", str(tmp_path / "said.sqlite"))
     monkeypatch.setenv("OPENAI_API_KEY", KEY)
-    monkeypatch.setattr(queue, "LIMITS", queue.LIMITS._replace(first_poll_s=0.01, job_settle_s=0.0))
+    monkeypatch.setattr(queue, "LIMITS", replace(queue.LIMITS, first_poll_s=0.01, job_settle_s=0.0))
 
 
 @pytest.fixture
@@ -227,7 +228,7 @@ from dataclasses import replace
 from pydantic_ai.models.openai import OpenAIResponsesModel
 from usd2kg.cli.app import main
 from usd2kg.grounding.llm.batch_jobs import queue
-queue.LIMITS = queue.LIMITS._replace(first_poll_s=0.01, max_poll_s=0.01, job_settle_s=0.0)
+queue.LIMITS = replace(queue.LIMITS, first_poll_s=0.01, max_poll_s=0.01, job_settle_s=0.0)
 OpenAIResponsesModel.batch_max_requests = {JOB_SIZE}
 main()
 """
