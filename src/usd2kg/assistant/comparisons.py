@@ -10,10 +10,10 @@ from usd2kg.assistant.sentences import (
     count_phrase,
     join_few,
     name_things,
-    number_text,
     plural,
     yes_or_no,
 )
+from usd2kg.assistant.units import Units
 from usd2kg.errors import GraphError
 from usd2kg.query.lookup import Nouns, SceneFacts, UnknownWordError
 from usd2kg.query.lookup.amounts import NUMBER_WORDS, read_amount, read_sides
@@ -26,9 +26,10 @@ __all__ = ["ComparisonAnswers"]
 class ComparisonAnswers:
     """Answers that compare things."""
 
-    def __init__(self, facts: SceneFacts, nouns: Nouns) -> None:
+    def __init__(self, facts: SceneFacts, nouns: Nouns, units: Units) -> None:
         self._facts = facts
         self._nouns = nouns
+        self._text = units.text
         self._bodies = BodyMeasures(facts)
 
     def find(self, question: str) -> Callable[..., InterpretedAnswer] | None:
@@ -60,7 +61,7 @@ class ComparisonAnswers:
             f" of the {len(values)} whose mass is known" if measure is MASS and len(values) < len(things.iris) else ""
         )
         labels = join_few([facts.label(iri) for iri in best])
-        amount = "" if measure is SIZE or count != "1" else f", {number_text(last, measure.unit)}"
+        amount = "" if measure is SIZE or count != "1" else f", {self._text(last, measure.unit)}"
         shown = (
             f"The {adjective.lower()} {things.text}"
             if count == "1"
@@ -95,7 +96,7 @@ class ComparisonAnswers:
             )
         (is_more,) = verdicts
         equal = all(abs(one - two) <= SAME * max(one, two) for one, two in pairs)
-        how = " against ".join(_range_text(low, high, measure) for low, high in ranges)
+        how = " against ".join(self._range_text(low, high, measure) for low, high in ranges)
         how += " m³" if measure is SIZE else ""
         said = yes_or_no(is_more, f"{'they are equal' if equal else how}.")
         return InterpretedAnswer(
@@ -118,7 +119,7 @@ class ComparisonAnswers:
             raise GraphError(f"not known: some {first.text} are {adjective} than some {second.text}, others are not")
         winner = first if low > other_high else second
         is_equal = abs(low - other_low) <= SAME * max(abs(low), abs(other_low))
-        numbers = " and ".join(number_text(abs(value), measure.unit) for value in (low, other_low))
+        numbers = " and ".join(self._text(abs(value), measure.unit) for value in (low, other_low))
         said = "They are equal" if is_equal else f"{winner.text} is {adjective}"
         how = "" if measure is SIZE else f": {numbers}"
         chosen = () if is_equal else winner.iris
@@ -183,7 +184,7 @@ class ComparisonAnswers:
             f" of the {len(values)} whose mass is known" if measure is MASS and len(values) < len(things.iris) else ""
         )
         named = name_things(self._facts, chosen) or f"no {things.text}"
-        sentence = f"{named}{known} {'is' if len(chosen) < 2 else 'are'} {adjective} than {number_text(value, unit)}"
+        sentence = f"{named}{known} {'is' if len(chosen) < 2 else 'are'} {adjective} than {self._text(value, unit)}"
         column = {"mass_kg" if measure is MASS else f"{measure.name}_m": values}
         return InterpretedAnswer(
             f"{things.text} {adjective} than {amount}",
@@ -220,8 +221,7 @@ class ComparisonAnswers:
         understood = f"whether {name} fits on {surfaces.text}"
         return InterpretedAnswer(understood, facts.table(spots, center_m=spots), bool(places), sentence=sentence)
 
-
-def _range_text(low: float, high: float, measure: Measure) -> str:
-    """Return a range of measures: 31 cm, 31 cm to 1.2 m; sizes without their unit, m³."""
-    ends = [f"{end**3:.3g}" if measure is SIZE else number_text(end, measure.unit) for end in (low, high)]
-    return " to ".join(dict.fromkeys(ends))
+    def _range_text(self, low: float, high: float, measure: Measure) -> str:
+        """Return a range of measures: 31 cm, 31 cm to 1.2 m; sizes without their unit, m³."""
+        ends = [f"{end**3:.3g}" if measure is SIZE else self._text(end, measure.unit) for end in (low, high)]
+        return " to ".join(dict.fromkeys(ends))

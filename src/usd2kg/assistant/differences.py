@@ -3,7 +3,8 @@
 from collections.abc import Callable
 
 from usd2kg.assistant.interpreted_answer import InterpretedAnswer
-from usd2kg.assistant.sentences import begin_sentence, join_few, number_text, yes_or_no
+from usd2kg.assistant.sentences import begin_sentence, join_few, yes_or_no
+from usd2kg.assistant.units import Units
 from usd2kg.errors import GraphError
 from usd2kg.query.lookup import Nouns, SceneFacts, Things
 from usd2kg.query.lookup.amounts import read_amount
@@ -15,9 +16,10 @@ __all__ = ["DifferenceAnswers"]
 class DifferenceAnswers:
     """Answers about differences of measures in one graph."""
 
-    def __init__(self, facts: SceneFacts, nouns: Nouns) -> None:
+    def __init__(self, facts: SceneFacts, nouns: Nouns, units: Units) -> None:
         self._facts = facts
         self._nouns = nouns
+        self._text = units.text
         self._bodies = BodyMeasures(facts)
 
     def find(self, question: str) -> Callable[..., InterpretedAnswer] | None:
@@ -39,8 +41,8 @@ class DifferenceAnswers:
         (first, one), (second, two) = (self._single(text, measure) for text in (thing, other))
         sign = COMPARED[word][1] if word in COMPARED else 1
         difference = one - two
-        both = f"{number_text(one, measure.unit)} against {number_text(two, measure.unit)}"
-        by = number_text(abs(difference), measure.unit)
+        both = f"{self._text(one, measure.unit)} against {self._text(two, measure.unit)}"
+        by = self._text(abs(difference), measure.unit)
         if word in COMPARED and sign * difference < 0:
             said = f"{first.text} is not {word} than {second.text}, but {by} less so: {both}"
         else:
@@ -82,7 +84,7 @@ class DifferenceAnswers:
             raise self._bodies.unmeasured(things, measure)
         is_so = all(sign * own > sign * value for own in values.values())
         verb = "weighs" if measure is MASS else "measures"
-        parts = [f"{self._facts.label(iri)} {verb} {number_text(own, measure.unit)}" for iri, own in values.items()]
+        parts = [f"{self._facts.label(iri)} {verb} {self._text(own, measure.unit)}" for iri, own in values.items()]
         return InterpretedAnswer(
             f"whether {things.text} is {adjective} than {amount}",
             self._facts.table(values),
@@ -100,7 +102,7 @@ class DifferenceAnswers:
         best = max(sign * value for value in values.values())
         first = min((iri for iri in values if sign * values[iri] == best), key=self._facts.path)
         is_so = any(sign * values[iri] == best for iri in things.iris)
-        amount = "" if measure is SIZE else f", {number_text(values[first], measure.unit)}"
+        amount = "" if measure is SIZE else f", {self._text(values[first], measure.unit)}"
         known = (
             f" of the {len(values)} whose mass is known" if measure is MASS and len(values) < len(among.iris) else ""
         )
@@ -121,8 +123,8 @@ class DifferenceAnswers:
         (first, one), (second, two) = self._single(thing, left), self._single(other, right)
         is_so = sign * one > sign * two
         said = (
-            f"{first.text} is {number_text(one, left.unit)} {left.name}, "
-            f"{second.text} is {number_text(two, right.unit)} {right.name}"
+            f"{first.text} is {self._text(one, left.unit)} {left.name}, "
+            f"{second.text} is {self._text(two, right.unit)} {right.name}"
         )
         return InterpretedAnswer(
             f"whether {first.text} is {adjective} than {second.text} is {measure}",

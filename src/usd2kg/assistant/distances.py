@@ -6,8 +6,9 @@ from collections.abc import Callable, Mapping
 import numpy as np
 
 from usd2kg.assistant.interpreted_answer import InterpretedAnswer
-from usd2kg.assistant.sentences import begin_sentence, join_few, number_text, yes_or_no
+from usd2kg.assistant.sentences import begin_sentence, join_few, yes_or_no
 from usd2kg.assistant.thing_lists import ThingLists
+from usd2kg.assistant.units import Units
 from usd2kg.errors import GraphError
 from usd2kg.query.body_table import Body
 from usd2kg.query.lookup import Nouns, SceneFacts, Things
@@ -26,9 +27,10 @@ _END = re.compile(r"(the )?(?P<end>bottom|underside|lower|top|upper)( edge| side
 class DistanceAnswers:
     """Answers about distances in one graph, by the boxes of things."""
 
-    def __init__(self, facts: SceneFacts, nouns: Nouns) -> None:
+    def __init__(self, facts: SceneFacts, nouns: Nouns, units: Units) -> None:
         self._facts = facts
         self._nouns = nouns
+        self._text = units.text
         self._bodies = BodyMeasures(facts)
         self._things = ThingLists(facts, nouns)
 
@@ -55,7 +57,7 @@ class DistanceAnswers:
         first, second = (self._nouns.existing(_NEAREST.sub("", text)) for text in (thing, other))
         gaps = self._gaps(first, second)
         facts = self._facts
-        parts = [f"{facts.label(iri)} is {number_text(gap, 'm')} from {second.text}" for iri, gap in gaps.items()]
+        parts = [f"{facts.label(iri)} is {self._text(gap, 'm')} from {second.text}" for iri, gap in gaps.items()]
         sentence = f"{join_few(parts)}, from side to side{first.suffix}{second.suffix}."
         table = facts.table(sorted(gaps, key=lambda iri: gaps[iri]), gap_m=gaps)
         return InterpretedAnswer(
@@ -82,7 +84,7 @@ class DistanceAnswers:
         nearest = min(gaps, key=lambda iri: (gaps[iri], facts.path(iri)))
         sentence = (
             f"The nearest {what.text} to {self._things.the(anchors)} is {facts.label(nearest)}, "
-            f"{number_text(gaps[nearest], 'm')} away."
+            f"{self._text(gaps[nearest], 'm')} away."
         )
         return InterpretedAnswer(understood, facts.table([nearest], gap_m=gaps), sentence=sentence)
 
@@ -94,7 +96,7 @@ class DistanceAnswers:
         found = self.distance(thing, other)
         gap = found.number or 0.0
         is_so = gap >= width
-        sentence = yes_or_no(is_so, f"The gap is {number_text(gap, 'm')} wide, from side to side.")
+        sentence = yes_or_no(is_so, f"The gap is {self._text(gap, 'm')} wide, from side to side.")
         return InterpretedAnswer(
             f"whether {distance} pass through {found.understood}", found.answer, is_so, sentence=sentence
         )
@@ -106,7 +108,7 @@ class DistanceAnswers:
         gaps = [min(self._gaps(choice, anchors).values()) for choice in choices]
         winner = choices[int(gaps[1] < gaps[0])]
         how = " and ".join(
-            f"{choice.text} is {number_text(gap, 'm')} away" for choice, gap in zip(choices, gaps, strict=True)
+            f"{choice.text} is {self._text(gap, 'm')} away" for choice, gap in zip(choices, gaps, strict=True)
         )
         said = "They are equally far" if gaps[0] == gaps[1] else f"{winner.text} is nearer to {anchors.text}"
         chosen = () if gaps[0] == gaps[1] else winner.iris
@@ -121,9 +123,7 @@ class DistanceAnswers:
         anchors = self._nouns.existing(thing)
         near, far = (self._nouns.existing(text) for text in (other, third))
         own, rival = (min(self._gaps(choice, anchors).values()) for choice in (near, far))
-        how = (
-            f"{anchors.text} is {number_text(own, 'm')} from {near.text} and {number_text(rival, 'm')} from {far.text}"
-        )
+        how = f"{anchors.text} is {self._text(own, 'm')} from {near.text} and {self._text(rival, 'm')} from {far.text}"
         return InterpretedAnswer(
             f"whether {anchors.text} is nearer to {near.text} than to {far.text}",
             self._facts.table(anchors.iris),
@@ -136,7 +136,7 @@ class DistanceAnswers:
         anchors = self._nouns.existing(other)
         first, second = self._nouns.existing(thing), self._nouns.existing(third)
         own, rival = (min(self._gaps(things, anchors).values()) for things in (first, second))
-        how = f"{first.text} is {number_text(own, 'm')} from {anchors.text}, {second.text} {number_text(rival, 'm')}"
+        how = f"{first.text} is {self._text(own, 'm')} from {anchors.text}, {second.text} {self._text(rival, 'm')}"
         return InterpretedAnswer(
             f"whether {first.text} is nearer to {anchors.text} than {second.text}",
             self._facts.table(first.iris),
@@ -155,7 +155,7 @@ class DistanceAnswers:
             bottom, top = lower - floor, upper - floor
             is_top = iri in facts.supporters if named is None else named["end"].lower() in {"top", "upper"}
             heights[iri] = round(top if is_top else bottom, 4)
-            parts.append(f"{facts.label(iri)} is {number_text(bottom, 'm')} to {number_text(top, 'm')} above the floor")
+            parts.append(f"{facts.label(iri)} is {self._text(bottom, 'm')} to {self._text(top, 'm')} above the floor")
         return InterpretedAnswer(
             f"how high above the floor: {things.text}",
             facts.table(heights, height_m=heights),
@@ -168,9 +168,9 @@ class DistanceAnswers:
         first, second = self._nouns.existing(thing), self._nouns.existing(other)
         one, two = ([self._ends(self._facts.body(iri), things) for iri in things.iris] for things in (first, second))
         gap = min(max(upper[0] - lower[1], lower[0] - upper[1]) for lower in one for upper in two)
-        said = f"{number_text(gap, 'm')} of height are between {first.text} and {second.text}"
+        said = f"{self._text(gap, 'm')} of height are between {first.text} and {second.text}"
         if gap < 0:
-            said = f"{first.text} and {second.text} overlap in height by {number_text(-gap, 'm')}"
+            said = f"{first.text} and {second.text} overlap in height by {self._text(-gap, 'm')}"
         return InterpretedAnswer(
             f"the height between {first.text} and {second.text}, in metres",
             self._facts.table((*first.iris, *second.iris)),

@@ -18,8 +18,7 @@ _BREAK = "|"
 """Stands for words that were left out: nouns on both sides are two noun phrases."""
 _FILLERS = word_set("assistant", "fillers")
 _NO_SENSE = re.compile(
-    r"\b(in|as) (square |cubic )?(cm|mm|m|kg|centimet(er|re)s|met(er|re)s|kilograms|kilos|inches|feet)\b"
-    r"|\b(one|some|any|each|all|both) of (the |them |these )?|\b(piece|pieces|pair|set) of\b|\bfor me\b"
+    r"\b(one|some|any|each|all|both) of (the |them |these )?|\b(piece|pieces|pair|set) of\b|\bfor me\b"
     r"|\b(of |i mean )?(both|all|any|every) (kind|type|sort|model)s?\b",
     re.IGNORECASE,
 )

@@ -3,7 +3,8 @@
 from collections.abc import Callable, Sequence
 
 from usd2kg.assistant.interpreted_answer import InterpretedAnswer
-from usd2kg.assistant.sentences import begin_sentence, join_few, name_things, number_text, the_thing, yes_or_no
+from usd2kg.assistant.sentences import begin_sentence, join_few, name_things, the_thing, yes_or_no
+from usd2kg.assistant.units import Units
 from usd2kg.errors import GraphError
 from usd2kg.query.lookup import Nouns, SceneFacts, Things, UnknownWordError
 from usd2kg.query.lookup.body_measures import MEASURES, BodyMeasures
@@ -18,9 +19,10 @@ _COLOR_NOUNS = frozenset(["colour", "color"])
 class LikenessAnswers:
     """Answers about the looks and kinds of things in one graph."""
 
-    def __init__(self, facts: SceneFacts, nouns: Nouns) -> None:
+    def __init__(self, facts: SceneFacts, nouns: Nouns, units: Units) -> None:
         self._facts = facts
         self._nouns = nouns
+        self._text = units.text
         self._bodies = BodyMeasures(facts)
 
     def find(self, question: str) -> Callable[..., InterpretedAnswer] | None:
@@ -85,7 +87,7 @@ class LikenessAnswers:
             found = {iri: ", ".join(material_words(self._facts, iri)) for iri in iris}
         elif word in MEASURES:
             measure = MEASURES[word]
-            found = {iri: number_text(value, measure.unit) for iri, value in self._bodies.values(iris, measure).items()}
+            found = {iri: self._text(value, measure.unit) for iri, value in self._bodies.values(iris, measure).items()}
         else:
             raise UnknownWordError(f"{attribute!r} is not understood as an attribute")
         return {iri: value for iri, value in found.items() if value}

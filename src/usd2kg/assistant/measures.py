@@ -6,8 +6,9 @@ import numpy as np
 
 from usd2kg.assistant.free_places import find_free_places
 from usd2kg.assistant.interpreted_answer import InterpretedAnswer
-from usd2kg.assistant.sentences import begin_sentence, join_few, join_words, name_things, number_text, yes_or_no
+from usd2kg.assistant.sentences import begin_sentence, join_few, join_words, name_things, yes_or_no
 from usd2kg.assistant.settings import PLACING
+from usd2kg.assistant.units import Units
 from usd2kg.errors import GraphError
 from usd2kg.grounding import concepts_named
 from usd2kg.knowledge import word_map, word_set
@@ -34,9 +35,11 @@ _COLORED = "{ ?s u2k:color [] } UNION { ?s usd:hasColor/usd:primvars_displayColo
 class MeasureAnswers:
     """Answers to questions about numbers and looks."""
 
-    def __init__(self, facts: SceneFacts, nouns: Nouns) -> None:
+    def __init__(self, facts: SceneFacts, nouns: Nouns, units: Units) -> None:
         self._facts = facts
         self._nouns = nouns
+        self._units = units
+        self._text = units.text
         self._bodies = BodyMeasures(facts)
 
     def find(self, question: str) -> Handler | None:
@@ -62,6 +65,8 @@ class MeasureAnswers:
     def _measure(self, thing: str, adjective: str = "size") -> InterpretedAnswer:
         word = adjective.lower()
         measure = MEASURES[word_map("assistant", "foreign_measures").get(word, word)]
+        if measure is SIZE and self._units.is_area:
+            measure = AREA
         if measure is not MASS and self._nouns.is_whole_scene(" ".join(split_phrase(thing))):
             return self._measure_scene(thing, measure)
         things = self._nouns.existing(thing)
@@ -76,16 +81,15 @@ class MeasureAnswers:
         for iri, value in values.items():
             extents = facts.body(iri).extents
             if measure is SIZE and extents is not None:
-                sides = " × ".join(f"{side:.2f}" for side in reversed(extents))
-                parts.append(f"{facts.label(iri)} measures {sides} m")
+                parts.append(f"{facts.label(iri)} measures {self._units.sides(extents[::-1])}")
             elif measure is AREA:
-                parts.append(f"{facts.label(iri)} covers {number_text(value, measure.unit)}")
+                parts.append(f"{facts.label(iri)} covers {self._text(value, measure.unit)}")
             elif measure is MASS:
-                parts.append(f"{facts.label(iri)} weighs {number_text(value, 'kg')}")
+                parts.append(f"{facts.label(iri)} weighs {self._text(value, 'kg')}")
             elif measure is ELEVATION:
-                parts.append(f"the underside of {facts.label(iri)} is {number_text(value, 'm')} above the floor")
+                parts.append(f"the underside of {facts.label(iri)} is {self._text(value, 'm')} above the floor")
             else:
-                parts.append(f"{facts.label(iri)} is {number_text(value, 'm')} {measure.name}")
+                parts.append(f"{facts.label(iri)} is {self._text(value, 'm')} {measure.name}")
         name = {MASS: "mass_kg", ELEVATION: "bottom_m"}.get(measure, f"{measure.name}_m")
         column = {name: values}
         sentence = f"{join_few(parts)}{things.suffix}."
@@ -100,6 +104,11 @@ class MeasureAnswers:
 
     def _measure_scene(self, text: str, measure: Measure) -> InterpretedAnswer:
         """Return a measure of the box around the walls and floors, or around all things if there are none."""
+        if measure is AREA and (floors := self._nouns.known("floor")):
+            values = self._bodies.values(floors, AREA)
+            sentence = f"The floor covers {self._text(sum(values.values()), AREA.unit)}."
+            table = self._facts.table(floors, area_m2=values)
+            return InterpretedAnswer(f"floor area: {text}", table, number=sum(values.values()), sentence=sentence)
         shells = {iri for noun in ("floor", "wall") for iri in self._nouns.known(noun)}
         bodies = [self._facts.body(iri) for iri in shells or self._facts.things]
         lower = [body.lower for body in bodies if body.lower is not None]
@@ -111,7 +120,7 @@ class MeasureAnswers:
         shortest, middle, longest = sorted((x, y, z))
         value = measure.of(Body(start, end, (shortest, middle, longest), None))
         of = "walls and floors" if shells else "all things"
-        sentence = f"The {of} of the scene measure {x:.2f} × {y:.2f} × {z:.2f} m along x, y and z."
+        sentence = f"The {of} of the scene measure {self._units.sides((x, y, z))} along x, y and z."
         return InterpretedAnswer(
             f"how {measure.name}: {text}",
             self._facts.table(self._facts.sorted(shells)),

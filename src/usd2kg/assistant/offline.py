@@ -2,8 +2,7 @@
 
 import math
 import re
-from collections.abc import Callable, Collection, Mapping, Sequence
-from dataclasses import replace
+from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 
 from usd2kg.assistant.comparisons import ComparisonAnswers
@@ -15,6 +14,7 @@ from usd2kg.assistant.intents import parse_intent
 from usd2kg.assistant.interpreted_answer import InterpretedAnswer
 from usd2kg.assistant.likeness import LikenessAnswers
 from usd2kg.assistant.measures import MeasureAnswers
+from usd2kg.assistant.openings import OpeningAnswers
 from usd2kg.assistant.paraphrases import paraphrases
 from usd2kg.assistant.phrases import Phrase, match_phrases, normalize, split_clauses
 from usd2kg.assistant.relation_answers import PREPOSITIONS, RelationAnswers
@@ -22,16 +22,14 @@ from usd2kg.assistant.sentences import (
     begin_sentence,
     count_phrase,
     join_few,
-    join_words,
-    name_things,
     plural,
     split_number,
     the_thing,
     yes_or_no,
 )
 from usd2kg.assistant.settings import SENTENCES
-from usd2kg.assistant.swept_space import find_in_the_way
 from usd2kg.assistant.thing_lists import ThingLists
+from usd2kg.assistant.units import Units
 from usd2kg.errors import GraphError
 from usd2kg.grounding import concepts_named
 from usd2kg.knowledge import word_map, word_set
@@ -72,25 +70,30 @@ def ask_offline(graph: GraphStore, text: str, since: Path | None = None) -> Inte
         GraphError: the question or one of its words is not understood.
     """
     check_text(text, "question")
-    found = [*match_phrases(text), *filter(None, [parse_intent(text)])]
-    return _Answerer(graph, not found or found[0].is_english, since).answer(text)
+    units = Units(text)
+    asked = units.question
+    found = [*match_phrases(asked), *filter(None, [parse_intent(asked)])]
+    answer = _Answerer(graph, not found or found[0].is_english, units, since).answer(asked)
+    units.check(answer.sentence)
+    return answer
 
 
 class _Answerer:
     """Answers questions about one graph."""
 
-    def __init__(self, graph: GraphStore, is_english: bool, since: Path | None) -> None:
+    def __init__(self, graph: GraphStore, is_english: bool, units: Units, since: Path | None) -> None:
         self._graph = graph
         self._since = since
         self._facts = graph.facts
         self._nouns = Nouns(self._facts, is_english=is_english)
         self._bodies = BodyMeasures(self._facts)
-        self._measures = MeasureAnswers(self._facts, self._nouns)
-        self._distances = DistanceAnswers(self._facts, self._nouns)
-        self._comparisons = ComparisonAnswers(self._facts, self._nouns)
-        self._differences = DifferenceAnswers(self._facts, self._nouns)
-        self._likeness = LikenessAnswers(self._facts, self._nouns)
-        self._relations = RelationAnswers(graph.facts, self._nouns)
+        self._measures = MeasureAnswers(self._facts, self._nouns, units)
+        self._distances = DistanceAnswers(self._facts, self._nouns, units)
+        self._comparisons = ComparisonAnswers(self._facts, self._nouns, units)
+        self._differences = DifferenceAnswers(self._facts, self._nouns, units)
+        self._likeness = LikenessAnswers(self._facts, self._nouns, units)
+        self._relations = RelationAnswers(graph.facts, self._nouns, units)
+        self._openings = OpeningAnswers(graph, self._nouns)
         self._things = ThingLists(self._facts, self._nouns)
 
     @property
@@ -103,14 +106,11 @@ class _Answerer:
             "count": self._count,
             "has-parts": self._has_parts,
             "how-many": self._how_many,
-            "is-blocked": self._is_blocked,
             "is-there": self._is_there,
             "parts": self._parts,
             "parts-list": self._parts_list,
             "parts-of": self._parts_of,
             "stands-on": self._stands_on,
-            "to-open": self._to_open,
-            "to-open-from": self._to_open,
             "where": self._where,
             "which": self._which,
             "with-parts": self._with_parts,
@@ -197,6 +197,7 @@ class _Answerer:
             self._differences.find,
             self._likeness.find,
             self._relations.find,
+            self._openings.find,
         )
         handler = next((found for find in finders if (found := find(question)) is not None), None)
         if handler is None:
@@ -388,51 +389,6 @@ class _Answerer:
         answers = [self._graph.answer(question, {**values, "thing": path}) for path in paths]
         found = join_answers(answers)
         return InterpretedAnswer(understood, found)
-
-    def _to_open(self, thing: str, other: str = "") -> InterpretedAnswer:
-        """Return what is in the way of a thing that opens: by its joint, else by the boxes in front of it."""
-        things = self._nouns.existing(thing)
-        carried = self._nouns.around("on", other, is_direct=False) if other else None
-        found = self._ready_question("to-open", {"thing": thing})
-        if found.answer.rows or not self._facts.opened_by_joint.isdisjoint(things.iris):
-            answer = found.answer if carried is None else self._only(found.answer, carried)
-            rows = [dict(zip(answer.columns, row, strict=True)) for row in answer.rows]
-            named = dict.fromkeys(the_thing(row["class"] or "", row["object"] or "") for row in rows)
-            reason = "by boxes that move as far as the joints allow"
-            sentence = self._obstructed(things, other, join_words([*named]), len(named), reason)
-            return replace(found, answer=answer, sentence=sentence)
-        parts = find_related(self._facts, "part", things.iris, is_direct=True)
-        swept = [find_in_the_way(self._facts, iri, parts) for iri in things.iris]
-        if any(one is None for one in swept):
-            raise GraphError(f"not known: the stage has no joint for {things.text}, so how it opens is unknown")
-        chosen = self._facts.sorted({iri for one in swept for iri in one or () if carried is None or iri in carried})
-        reason = "by boxes: the stage has no joint for it, and it may open to either side"
-        sentence = self._obstructed(things, other, name_things(self._facts, chosen), len(chosen), reason)
-        return InterpretedAnswer(
-            f"what is in the way of {things.text}", self._things.located(chosen), sentence=sentence
-        )
-
-    def _obstructed(self, things: Things, other: str, named: str, count: int, reason: str) -> str:
-        """Return the sentence about what is in the way, of all things or of those on another."""
-        named = f"{named or 'nothing'}{f' on {other}' if other else ''}"
-        verb = "is" if count < 2 else "are"
-        return begin_sentence(f"{named} {verb} in the way of {self._things.the(things)}, {reason}{things.suffix}.")
-
-    def _only(self, answer: Answer, objects: Collection[str]) -> Answer:
-        """Return the rows of an answer that are about some of its objects."""
-        paths, column = {self._facts.path(iri) for iri in objects}, answer.columns.index("path")
-        kept = [number for number, row in enumerate(answer.rows) if row[column] in paths]
-        return replace(
-            answer,
-            rows=tuple(answer.rows[number] for number in kept),
-            values=tuple(answer.values[number] for number in kept),
-        )
-
-    def _is_blocked(self, thing: str) -> InterpretedAnswer:
-        found = self._to_open(thing)
-        is_blocked = bool(found.answer.rows)
-        sentence = f"{'Yes' if is_blocked else 'No'}. {found.sentence}"
-        return InterpretedAnswer(f"what blocks {thing}", found.answer, is_blocked, sentence=sentence)
 
 
 def _normalize(name: str, value: str) -> str:

@@ -49,8 +49,7 @@ _POLITE = re.compile(
 _TRAILING = re.compile(
     r",?\s+(please|pls|thanks|thank you|bitte|in total|altogether|all together|overall|in all|anywhere|at all|exactly|"
     r"right now|currently|for me|yes or no|or not|i mean|right|correct|or what|(is not|isn't|aren't) (it|there|they)|"
-    r"if (you have|there is|there's) (one|any|some)|what are my options|any ideas?|what do you (suggest|think)|"
-    r"in (square |cubic )?(cm|mm|m|kg|(centi|milli)?met(er|re)s|kilograms|kilos|inches|feet))$",
+    r"if (you have|there is|there's) (one|any|some)|what are my options|any ideas?|what do you (suggest|think))$",
     re.IGNORECASE,
 )
 _COMMENT = re.compile(

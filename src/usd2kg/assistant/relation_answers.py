@@ -4,8 +4,9 @@ import re
 from collections.abc import Callable, Sequence
 
 from usd2kg.assistant.interpreted_answer import InterpretedAnswer
-from usd2kg.assistant.sentences import begin_sentence, name_things, number_text, split_number, the_thing, yes_or_no
+from usd2kg.assistant.sentences import begin_sentence, name_things, split_number, the_thing, yes_or_no
 from usd2kg.assistant.thing_lists import ThingLists, column_of
+from usd2kg.assistant.units import Units
 from usd2kg.errors import GraphError
 from usd2kg.knowledge import word_set
 from usd2kg.query.lookup import Nouns, SceneFacts, Things, UnknownWordError
@@ -40,9 +41,10 @@ _BY_BOXES = frozenset(["above", "left", "right", "front", "behind"])
 class RelationAnswers:
     """Answers about relations of one graph."""
 
-    def __init__(self, facts: SceneFacts, nouns: Nouns) -> None:
+    def __init__(self, facts: SceneFacts, nouns: Nouns, units: Units) -> None:
         self._facts = facts
         self._nouns = nouns
+        self._text = units.text
         self._things = ThingLists(facts, nouns)
 
     def find(self, question: str) -> Callable[..., InterpretedAnswer] | None:
@@ -171,7 +173,7 @@ class RelationAnswers:
         nearest = min(gaps, key=lambda iri: (gaps[iri], self._facts.path(iri)), default=None)
         if nearest is None or gaps[nearest] > DIRECTIONS.reach:
             return [], ""
-        return [nearest], f" ({number_text(gaps[nearest], 'm')} away)"
+        return [nearest], f" ({self._text(gaps[nearest], 'm')} away)"
 
     def _fixed_to(self, anchors: Sequence[str], *, with_parts: bool) -> set[str]:
         """Return what is fixed to things or to parts of them, and these parts on request."""

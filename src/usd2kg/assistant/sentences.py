@@ -130,11 +130,11 @@ def split_number(text: str) -> tuple[int, str]:
 def number_text(value: float, unit: str) -> str:
     """Return a quantity with a suitable unit: metres below 1 as centimetres, kilograms below 1 as grams.
 
-    >>> number_text(0.31, "m"), number_text(1.85, "m"), number_text(0.4, "kg"), number_text(68, "kg")
-    ('31 cm', '1.85 m', '400 g', '68 kg')
+    >>> number_text(0.31, "m"), number_text(1.85, "m"), number_text(0.4, "kg"), number_text(3900, "kg")
+    ('31 cm', '1.85 m', '400 g', '3,900 kg')
     """
     if unit == "m" and abs(value) < 1:
         return f"{value * 100:.3g} cm"
     if unit == "kg" and abs(value) < 1:
         return f"{value * 1000:.3g} g"
-    return f"{value:.3g} {unit}"
+    return f"{value:,.0f} {unit}" if abs(value) >= 1000 else f"{value:.3g} {unit}"

@@ -5,7 +5,7 @@ import re
 from usd2kg.errors import GraphError
 from usd2kg.knowledge import word_map
 
-__all__ = ["NUMBER_NAMES", "NUMBER_WORDS", "UNIT_SYMBOLS", "is_amount", "read_amount", "read_sides"]
+__all__ = ["NUMBER_NAMES", "NUMBER_WORDS", "UNIT_SIZES", "UNIT_SYMBOLS", "is_amount", "read_amount", "read_sides"]
 
 NUMBER_NAMES = ("no", "one", "two", "three", "four", "five", "six", "seven", "eight", "nine", "ten", "eleven", "twelve")
 NUMBER_WORDS = {word: number for number, word in enumerate(NUMBER_NAMES) if number}
@@ -18,18 +18,22 @@ _AND_A_HALF = re.compile(
 )
 _ARTICLES = {"a": 1.0, "an": 1.0, "half": 0.5, "half a": 0.5, "half an": 0.5}
 
-_UNIT_SIZES = {
+UNIT_SIZES = {
     "m": ("m", 1.0),
     "cm": ("m", 0.01),
     "mm": ("m", 0.001),
     "in": ("m", 0.0254),
     "ft": ("m", 0.3048),
+    "yd": ("m", 0.9144),
+    "km": ("m", 1000.0),
     "kg": ("kg", 1.0),
     "g": ("kg", 0.001),
+    "t": ("kg", 1000.0),
     "lb": ("kg", 0.45359237),
+    "oz": ("kg", 0.028349523125),
 }
 """Symbol → unit of the measures, and the size in it."""
-UNIT_SYMBOLS = {**{symbol: symbol for symbol in _UNIT_SIZES}, **word_map("query", "unit_words")}
+UNIT_SYMBOLS = {**{symbol: symbol for symbol in UNIT_SIZES}, **word_map("query", "unit_words")}
 """Unit in a question, in lower case → symbol."""
 
 
@@ -57,7 +61,7 @@ def read_amount(text: str) -> tuple[float, str]:
         raise GraphError(
             f"{text!r} is not understood as an amount; expected a number with a unit, such as 40 cm or 2 kg"
         )
-    unit, size = _UNIT_SIZES[symbol]
+    unit, size = UNIT_SIZES[symbol]
     number = found["number"].lower()
     count = {**NUMBER_WORDS, **_ARTICLES}.get(number)
     return (float(number) if count is None else count) * size, unit
