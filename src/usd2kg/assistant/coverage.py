@@ -4,16 +4,19 @@ import re
 from collections.abc import Sequence
 
 from usd2kg.assistant.interpreted_answer import InterpretedAnswer
+from usd2kg.assistant.paraphrases import NOUNS_ONLY
 from usd2kg.assistant.phrases import Phrase, crosses_clauses
 from usd2kg.assistant.sentences import join_words
 from usd2kg.knowledge import word_set
 from usd2kg.query.lookup import UnknownWordError
 
-__all__ = ["check_left", "leaves_out", "with_notes"]
+__all__ = ["check_left", "check_nothing", "is_topic", "leaves_out", "with_notes"]
 
 _CONDITIONS = word_set("query", "negations") | word_set("assistant", "conditions")
 _EMBEDDED = re.compile(r"\b(know|see|check|sure|wonder|tell|ask) (me )?(if|whether)\b", re.IGNORECASE)
 """Begins a question within a clause, which is no condition."""
+_REQUEST = re.compile(r"(so )?(how|what|which|where|who|whose|why|when)\b", re.IGNORECASE)
+"""Begins a question of its own."""
 _EMPTY_WORDS = word_set("assistant", "fillers") | word_set("query", "determiners")
 _OTHER_TIMES = word_set("assistant", "other_times")
 _ABOUT_TIME = frozenset(["changed"])
@@ -34,6 +37,35 @@ def check_left(phrase: Phrase) -> None:
         words = _words(_EMBEDDED.sub("", part))
         if found := next((word for word in words if word in _CONDITIONS), None):
             raise UnknownWordError(f"{found!r} in {part!r} is not understood")
+
+
+def check_nothing(found: InterpretedAnswer, phrase: Phrase, guesses: Sequence[str]) -> None:
+    """Check that an answer that there is nothing does not come from words that were guessed or left out.
+
+    Args:
+        found: the answer.
+        phrase: the interpretation of the question.
+        guesses: notes on words that were read as something near.
+
+    Raises:
+        UnknownWordError: nothing is found, and the words may mean something else.
+    """
+    if found.answer.rows or found.number or found.verdict:
+        return
+    if guesses:
+        raise UnknownWordError(f"not known: {guesses[0]}, and nothing was found")
+    for part in phrase.left:
+        if _REQUEST.match(part):
+            raise UnknownWordError(f"{part!r} is not understood")
+
+
+def is_topic(clause: str) -> bool:
+    """Return whether a clause is a definite noun phrase without a verb, which the question is about.
+
+    >>> is_topic("the plates on the table"), is_topic("the butter has to stay cold"), is_topic("long day")
+    (True, False, False)
+    """
+    return clause.lower().startswith("the ") and NOUNS_ONLY.search(clause) is None
 
 
 def leaves_out(phrase: Phrase) -> bool:

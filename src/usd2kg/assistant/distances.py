@@ -37,7 +37,7 @@ class DistanceAnswers:
     def find(self, question: str) -> Callable[..., InterpretedAnswer] | None:
         """Return the method that answers a question type; None if it is another's."""
         handlers: dict[str, Callable[..., InterpretedAnswer]] = {
-            "apart": lambda kind: self.distance(*self._nouns.pair(kind)),
+            "apart": lambda kind: self.distance(*self._things.pair(kind)),
             "distance": self.distance,
             "elevation": self._elevation,
             "is-nearer": self._is_nearer,

@@ -6,7 +6,7 @@ from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 
 from usd2kg.assistant.comparisons import ComparisonAnswers
-from usd2kg.assistant.coverage import check_left, leaves_out, with_notes
+from usd2kg.assistant.coverage import check_left, check_nothing, is_topic, leaves_out, with_notes
 from usd2kg.assistant.describe import description_answer
 from usd2kg.assistant.differences import DifferenceAnswers
 from usd2kg.assistant.distances import DistanceAnswers
@@ -123,8 +123,12 @@ class _Answerer:
         problem = ""
         for read, phrase in readers:
             self._nouns.notes.clear()
+            self._nouns.guesses.clear()
             try:
-                return with_notes(read(phrase), phrase, text, self._nouns.notes)
+                self._check_topics(text, phrase)
+                found = read(phrase)
+                check_nothing(found, phrase, self._nouns.guesses)
+                return with_notes(found, phrase, text, self._nouns.notes)
             except UnknownWordError as error:
                 # A pattern may have taken other words for a part of the noun. The error itself would be a reference
                 # cycle, which keeps the graph.
@@ -138,6 +142,17 @@ class _Answerer:
             "'where is the kettle?', 'how many cups are there?' or 'what must be moved to open the drawer?' "
             "(usd2kg query --list shows more); or let a language model write the query with --model"
         )
+
+    def _check_topics(self, text: str, phrase: Phrase) -> None:
+        """Check that no clause that a reading leaves out names things that the question is about.
+
+        Raises:
+            UnknownWordError: a clause does.
+        """
+        clauses = set(split_clauses(text))
+        for part in phrase.left:
+            if part in clauses and (is_topic(part) or self._means_things(part)):
+                raise UnknownWordError(f"{part!r} beside the question is not understood")
 
     def _readers(self, text: str, phrases: Sequence[Phrase]) -> list[tuple[_Reader, Phrase]]:
         """Return the readings of a question, first those that use all of it; of other wordings if its own fail."""
@@ -167,8 +182,11 @@ class _Answerer:
 
     def _is_noun_here(self, text: str) -> bool:
         """Return whether a text means objects of the scene, or names a kind that it lacks."""
+        return self._means_things(text) or len(concepts_named(text)) == 1
+
+    def _means_things(self, text: str) -> bool:
         try:
-            return bool(self._nouns.find(text, may_shorten=False).iris) or len(concepts_named(text)) == 1
+            return bool(self._nouns.find(text, may_shorten=False).iris)
         except GraphError:
             return False
 

@@ -8,11 +8,11 @@ from typing import NamedTuple
 
 from usd2kg.assistant.phrases import normalize, split_clauses
 
-__all__ = ["paraphrases"]
+__all__ = ["NOUNS_ONLY", "paraphrases"]
 
 
 _PAIR = 2
-_NOUNS_ONLY = re.compile(r"\b(is|are|was|were|be|am|has|have|had|do|does|i|we|you)\b|'", re.IGNORECASE)
+NOUNS_ONLY = re.compile(r"\b(is|are|was|were|be|am|has|have|had|do|does|i|we|you)\b|'", re.IGNORECASE)
 """What a clause has that is more than a noun phrase."""
 _OPEN = re.compile(r"(what|which|where|how|is|are)\b(?!.*\b(it|they|them|this|that|one)\b)", re.IGNORECASE)
 """A question without a pronoun for what was named before."""
@@ -43,7 +43,7 @@ def paraphrases(text: str) -> Iterator[str]:
     whole = normalize(text)
     clauses = split_clauses(whole)
     ordered = [whole]
-    if len(clauses) == _PAIR and _NOUNS_ONLY.search(clauses[0]) is None and _OPEN.match(clauses[1]):
+    if len(clauses) == _PAIR and NOUNS_ONLY.search(clauses[0]) is None and _OPEN.match(clauses[1]):
         ordered += [f"{clauses[1]} {clauses[0]}"]
     seen = {whole}
     if clauses:

@@ -8,7 +8,7 @@ from itertools import count
 from typing import NamedTuple
 
 from usd2kg.query.lookup.amounts import NUMBER_WORDS
-from usd2kg.query.lookup.prepositions import preposition_pattern
+from usd2kg.query.lookup.prepositions import DIRECTLY, preposition_pattern
 
 __all__ = ["HEADINGS", "Phrase", "crosses_clauses", "list_phrases", "match_phrases", "normalize", "split_clauses"]
 
@@ -30,7 +30,7 @@ _PARAMETERS = {
     "other": "[^?]+?",
     "class": "[^?]+?",
     # “Within two metres of” is a distance.
-    "relation": rf"(?!within (?:\d|an? |half |{'|'.join(NUMBER_WORDS)}))(?:{preposition_pattern()})",
+    "relation": rf"(?:{DIRECTLY})?(?!within (?:\d|an? |half |{'|'.join(NUMBER_WORDS)}))(?:{preposition_pattern()})",
     "distance": r"<number> ?((milli|centi)?met(er|re)s?|mm|cm|m)?",
     "amount": r"<number> ?([a-z]+|\")",
     "sides": r"<number>( ?[a-z]+)? ?(by|x|×) ?<number>( ?[a-z]+)?( ?(by|x|×) ?<number> ?[a-z]+)?",
@@ -63,6 +63,11 @@ _PLACED = re.compile(
     re.IGNORECASE,
 )
 """Participles that add nothing to the preposition after them."""
+_CONTRACTIONS = (
+    (re.compile(r"\b(is|are|was|were)n'?t\b", re.IGNORECASE), r"\1 not"),
+    (re.compile(r"^((?:what|which) \w+)'s (?=(?:the|my|our|this|that|these|those)\b)", re.IGNORECASE), r"\1 is "),
+)
+"""Contracted forms, and the words that they stand for."""
 HEADINGS = {"# German, French, Spanish and Italian.": False, "# English.": True}
 """Heading of patterns → whether they are English."""
 _LEFT = "left_"
@@ -140,6 +145,8 @@ def split_clauses(text: str) -> list[str]:
 def normalize(text: str) -> str:
     """Return a question on one line, without what is only polite."""
     asked = " ".join(text.replace(_APOSTROPHE, "'").split()).strip(" ?!.,¿¡")
+    for contraction, words in _CONTRACTIONS:
+        asked = contraction.sub(words, asked)
     whole = asked
     while polite := _POLITE.match(asked):
         asked = asked[polite.end() :]
@@ -150,7 +157,10 @@ def normalize(text: str) -> str:
         asked = shorter
     asked = _COMMENT.sub("", asked).strip(" ?!.,")
     asked = re.sub(
-        r"\b(directly|exactly|immediately) (?=(above|below|under|over|on|in|behind|next|beside)\b)", "", asked
+        r"\b((directly|immediately) (?=(above|below|under|over|behind|next|beside)\b)|"
+        r"exactly (?=(above|below|under|over|on|in|behind|next|beside)\b))",
+        "",
+        asked,
     )
     asked = _PLACED.sub("", re.sub(r"\b[ld]'(?=\w)", "", asked, flags=re.IGNORECASE))
     asked = re.sub(r"\s+(right here|in here|here in this room)\b", "", asked, flags=re.IGNORECASE)

@@ -12,7 +12,7 @@ from usd2kg.knowledge import word_set
 from usd2kg.query.lookup import Nouns, SceneFacts, Things, UnknownWordError
 from usd2kg.query.lookup.body_measures import BodyMeasures
 from usd2kg.query.lookup.directions import find_beside, find_between
-from usd2kg.query.lookup.prepositions import RELATION_OF
+from usd2kg.query.lookup.prepositions import is_direct, relation_of
 from usd2kg.query.lookup.related_things import find_above, find_below, find_parts, find_related
 from usd2kg.query.lookup.word_forms import is_plural, split_phrase
 from usd2kg.query.settings import DIRECTIONS
@@ -51,7 +51,7 @@ class RelationAnswers:
         """Return the method that answers a question type; None if it is another's."""
         handlers: dict[str, Callable[..., InterpretedAnswer]] = {
             "between": self._between,
-            "between-two": lambda kind: self._between(*self._nouns.pair(kind)),
+            "between-two": lambda kind: self._between(*self._things.pair(kind)),
             "rel-count": self._rel_count,
             "rel-is": self._rel_is,
             "rel-some": self._rel_some,
@@ -81,14 +81,14 @@ class RelationAnswers:
                 return self._things.answer(self._nouns.find(f"{kind} {what}"))
             # “Which chairs have a cushion on them?”: the anchors.
             anchors, targets = self._nouns.find(kind), set(self._nouns.find(other).iris)
-            name = RELATION_OF[relation.lower()]
+            name = relation_of(relation)
             chosen = [iri for iri in anchors.iris if find_related(self._facts, name, [iri], is_direct=False) & targets]
             return self._things.answer(Things(tuple(chosen), f"{anchors.text} with {other} {PREPOSITIONS[name]} them"))
         return self._related(relation, thing, kind)
 
     def _which_holder(self, relation: str, kind: str, thing: str) -> InterpretedAnswer:
         """Return the things of a kind that others are on or in, directly or over what is between: on which shelf."""
-        name, facts = RELATION_OF[relation.lower()], self._facts
+        name, facts = relation_of(relation), self._facts
         things, kinds = self._nouns.existing(thing), self._nouns.existing(kind)
         held = set(things.iris)
         chosen = [
@@ -128,13 +128,13 @@ class RelationAnswers:
 
     def _related(self, relation: str, thing: str, kind: str | None) -> InterpretedAnswer:
         """Return the things of a kind, or all things, in a relation to others."""
-        name, facts = RELATION_OF[relation.lower()], self._facts
+        name, facts = relation_of(relation), self._facts
         what = None if kind is None else self._nouns.find(kind)
         if what is not None:
             self._things.check_kind(what)
         anchors = self._anchors(name, thing)
         understood = f"{'things' if what is None else what.text} {PREPOSITIONS[name]} {anchors.text}"
-        found, note = self._by_relation(name, thing, anchors, is_direct=what is None), ""
+        found, note = self._by_relation(name, thing, anchors, is_direct=what is None or is_direct(relation)), ""
         if name == "inside" and (what is None or what.text == "thing"):
             # The door of a microwave is a part of it, not what is in it.
             found -= find_parts(self._facts, anchors.iris)
@@ -147,7 +147,7 @@ class RelationAnswers:
             found, note = self._by_boxes(name, anchors)
         if name == "on" and found.isdisjoint(found if what is None else what.iris):
             # Pictures hang on a wall, and handles are on a cabinet.
-            found = self._fixed_to(anchors.iris, with_parts=what is not None)
+            found = self._fixed_to(anchors.iris, with_parts=what is not None and what.text != "thing")
         if name == "below" and what is not None and found.isdisjoint(what.iris):
             # A rug is under the table that stands on it.
             found = {one for iri in anchors.iris for one in facts.anchors("on", iri)}
@@ -155,7 +155,7 @@ class RelationAnswers:
         if name == "near" and what is not None and what.iris and not chosen and anchors.iris:
             chosen, note = self._nearest_within_reach(what.iris, anchors.iris)
         notes = f"{what.suffix if what else ''}{anchors.suffix}{note}"
-        place = f"{PREPOSITIONS[name]} {self._things.the(anchors)}"
+        place = f"{'directly ' if is_direct(relation) else ''}{PREPOSITIONS[name]} {self._things.the(anchors)}"
         if chosen:
             verb = "is" if len(chosen) == 1 else "are"
             named = name_things(facts, chosen)
@@ -199,6 +199,8 @@ class RelationAnswers:
                 return Things((), text)
             raise
         self._things.check_kind(things)
+        if relation == "inside" and self._nouns.is_area(text, things.iris):
+            return Things((), noun)
         if not things.iris and not (relation == "inside" and self._nouns.in_area(text)):
             raise GraphError(things.absence)
         return things

@@ -37,6 +37,18 @@ class ThingLists:
             labels = join_few([self._facts.label(iri) for iri in things.iris])
             raise GraphError(f"not known: nothing is known to be {things.text}, which is only in the name of {labels}")
 
+    def pair(self, kind: str) -> tuple[str, str]:
+        """Return the prim paths of the two things of a kind.
+
+        Raises:
+            GraphError: there are not two.
+        """
+        things = self._nouns.existing(kind)
+        if len(things.iris) != 2:
+            raise GraphError(f"there are {len(things.iris)} {things.text}; expected two, or the names of two")
+        one, other = map(self._facts.path, things.iris)
+        return one, other
+
     def located(self, iris: Sequence[str]) -> Answer:
         """Return objects with what they are on and in."""
         facts = self._facts

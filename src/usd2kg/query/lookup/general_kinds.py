@@ -3,6 +3,7 @@
 from usd2kg.grounding import hypernyms_of
 from usd2kg.knowledge import word_map
 from usd2kg.query.lookup.facts import SceneFacts
+from usd2kg.query.lookup.modifiers import restricts
 from usd2kg.query.lookup.things import Things
 from usd2kg.query.lookup.word_forms import singular
 from usd2kg.query.settings import WORDS
@@ -24,7 +25,9 @@ def find_more_general(facts: SceneFacts, noun: str) -> Things | None:
     above = hypernyms_of(noun)
     kinds: dict[str, list[str]] = {}
     for iri in facts.things:
-        kinds.setdefault(facts.kind(iri), []).append(iri)
+        # A white cup is a cup: its colour is no kind.
+        *before, last = facts.kind(iri).split() or [""]
+        kinds.setdefault(" ".join([*(word for word in before if not restricts(word)), last]), []).append(iri)
     # People use the name of a near kind: a storage rack is a rack, which is a shelf in the scene.
     named = {kind: kind for kind in above}
     named |= {_INTERCHANGEABLE[kind]: kind for kind in sorted(above & _INTERCHANGEABLE.keys())}

@@ -60,12 +60,19 @@ class Kinds:
             or (wanted and wanted in (name_words(label), name_words(re.split(r"[#/]", node.value)[-1])))
         ]
 
-    def _concepts_named(self, name: str) -> list[ox.NamedNode]:
-        wanted = name_words(name)
+    def usual_concepts(self, name: str) -> frozenset[str]:
+        """Return the IRIs of the usual concept of a noun and of its near synonym, in the graph or not."""
+        return frozenset(iri for one in self._names(name) for iri in concepts_named(one)[:1])
+
+    def _names(self, name: str) -> list[str]:
+        """Return a noun, its singular, and a noun that people use for it."""
         *before, last = name.split() or [name]
         head = singular(last)
-        names = [name, *(" ".join([*before, noun]) for noun in (head, _INTERCHANGEABLE.get(head)) if noun)]
-        iris = {name, expand_curie(name), *(iri for one in names for iri in concepts_named(one))}
+        return [name, *(" ".join([*before, noun]) for noun in (head, _INTERCHANGEABLE.get(head)) if noun)]
+
+    def _concepts_named(self, name: str) -> list[ox.NamedNode]:
+        wanted = name_words(name)
+        iris = {name, expand_curie(name), *(iri for one in self._names(name) for iri in concepts_named(one))}
         return [
             node for node, label in self._concepts if node.value in iris or (wanted and name_words(label) == wanted)
         ]

@@ -10,7 +10,7 @@ from usd2kg.query.lookup.body_measures import COMPARED, SIZE, SUPERLATIVES, Body
 from usd2kg.query.lookup.colors import COLORS, has_color, has_material, is_material
 from usd2kg.query.lookup.directions import find_between
 from usd2kg.query.lookup.facts import SceneFacts
-from usd2kg.query.lookup.prepositions import RELATION_OF
+from usd2kg.query.lookup.prepositions import DIRECTLY, RELATION_OF, preposition_pattern
 from usd2kg.query.lookup.related_things import find_related
 from usd2kg.query.lookup.things import Things
 from usd2kg.query.lookup.word_forms import split_phrase
@@ -41,6 +41,9 @@ _WITHOUT = re.compile(
 _WITH = re.compile(
     r"(?P<first>.+?) (?:with|that (?:have|has)) (?P<second>.+?) (?P<relation>on|in|inside|near) (?:it|them|top)"
 )
+_NOT = re.compile(r"(?P<first>.+?) (?:that (?:is|are) )?not (?P<rest>.+)")
+_LINKED = re.compile(rf"{DIRECTLY}|(?:{preposition_pattern()}|{'|'.join(COMPARED)}|within|between)\b")
+"""Begins a modifier after a noun."""
 _EMPTY = word_set("query", "empty_adjectives")
 
 _Find = Callable[[str], Things | None]
@@ -70,6 +73,7 @@ class PhraseModifiers:
     def read_first(self, text: str) -> Things | None:
         """Return the things of a noun with a modifier that has a preposition: a distance, or what is not on them."""
         readers = (
+            self._read_not,
             self._read_superlative,
             self._read_with,
             self._read_without,
@@ -79,6 +83,21 @@ class PhraseModifiers:
             self._read_same,
         )
         return next((found for read in readers if (found := read(text)) is not None), None)
+
+    def _read_not(self, text: str) -> Things | None:
+        """Return the things of a noun that are not of another kind, or to which a modifier does not apply."""
+        parts = _NOT.fullmatch(text)
+        first = self._find_noun(parts["first"]) if parts is not None else None
+        if parts is None or first is None:
+            return None
+        rest = " ".join(split_phrase(parts["rest"]))
+        is_kind = not (_LINKED.match(rest) or restricts(rest))
+        denied = self._find(rest if is_kind else f"{rest} {first.text}" if restricts(rest) else f"{first.text} {rest}")
+        if denied is None:
+            return None
+        kept = tuple(iri for iri in first.iris if iri not in denied.iris)
+        # A table that is not a bag, a kettle that is no pot: the negation may belong to another noun.
+        return None if is_kind and len(kept) in {0, len(first.iris)} else Things(kept, text)
 
     def _read_superlative(self, text: str) -> Things | None:
         """Return the things of a noun after a superlative with the most or the least of a measure: `largest shelf`."""

@@ -8,6 +8,7 @@ from usd2kg.grounding import concepts_named
 from usd2kg.knowledge import word_set
 from usd2kg.query.lookup.facts import SceneFacts
 from usd2kg.query.lookup.kinds import Kinds
+from usd2kg.query.lookup.related_things import find_parts
 from usd2kg.query.lookup.things import Things
 from usd2kg.query.lookup.word_forms import is_noun, name_parts, name_words, noun_words, singular, split_phrase
 from usd2kg.query.settings import WORDS
@@ -54,17 +55,20 @@ class NameMatcher:
             lambda: facts.named(lower),
             lambda: facts.named("".join(lower.split())) or facts.named("_".join(lower.split())) if " " in lower else (),
             lambda: self._with_words(names, is_whole=True) if len(words) > 1 and words == names else (),
-            lambda: self._main_of_group(lower),
+            lambda: self._main_of_group(lower) or self._main_of_groups(text),
         )
         kinds: tuple[_Criterion, ...] = (
             lambda: self._in_place(text) if self._is_plain(text) else (),
             lambda: self._kinds.objects(text),
         )
         # One noun is rarely a name, and all names of a large graph take seconds to read.
-        for criterion in (*exact, *kinds, *named) if text.isalpha() else (*exact, *named, *kinds):
+        for criterion in (*exact, *kinds) if text.isalpha() else exact:
             if found := facts.sorted(criterion()):
                 return found
-        return []
+        by_name, by_kind = (set(next(filter(None, map(_found, group)), ())) for group in (named, kinds))
+        # Objects whose names are that of their kind stand for all of it.
+        is_kind = not (by_name.isdisjoint(by_kind) or any(letter.isdigit() for letter in text))
+        return facts.sorted(by_name | by_kind if is_kind or not by_name else by_name)
 
     def of_words(self, text: str) -> Things | None:
         """Return the objects with these words in the label, in the path or in the name of the asset.
@@ -131,7 +135,28 @@ class NameMatcher:
         if not grouped:
             return set()
         noun = " ".join(word for word in split_identifier(name) if word.isalpha() and len(word) > 1)
-        return (self._kinds.objects(noun) & grouped) or grouped
+        return (self._kinds.objects(noun) & grouped) or (grouped - find_parts(self._facts, grouped)) or grouped
+
+    def _main_of_groups(self, text: str) -> set[str]:
+        """Return the main objects of the groups that are named after a kind: the fridge of `Refrigerator_1`."""
+        if not is_noun(text) or any(len(word) == 1 for word in text.split()):
+            return set()
+        meant, words = self._kinds.usual_concepts(text), noun_words(text)
+        nouns = self._nouns_of_groups.items()
+        named = [group for group, noun in nouns if noun_words(noun) == words]
+        named = named or [group for group, noun in nouns if not meant.isdisjoint(self._kinds_of_group(noun))]
+        return {iri for group in named for iri in self._main_of_group(group)}
+
+    def _kinds_of_group(self, noun: str) -> frozenset[str]:
+        """Return the concepts of a noun and of its head: a wall cabinet is a cabinet."""
+        return self._kinds.usual_concepts(noun) | self._kinds.usual_concepts(noun.rsplit(maxsplit=1)[-1])
+
+    @cached_property
+    def _nouns_of_groups(self) -> dict[str, str]:
+        """Name of a group in lower case → its words without numbers and single letters."""
+        names = sorted({name for path in self._facts.columns.paths for name in path.split("/")[2:-1]})
+        words = {name: [w for w in split_identifier(name) if w.isalpha() and len(w) > 1] for name in names}
+        return {name.lower(): " ".join(found).lower() for name, found in words.items() if found}
 
     def _group(self, iri: str) -> str:
         """Return the path of the groups of an object, without the root that all share."""
@@ -148,6 +173,10 @@ class NameMatcher:
         """The prim path that the groups of all objects begin with."""
         groups = {path.rpartition("/")[0] for path in self._facts.columns.paths}
         return os.path.commonpath([group for group in groups if group] or ["/"])
+
+
+def _found(criterion: _Criterion) -> frozenset[str]:
+    return frozenset(criterion())
 
 
 def _head_of(label: str) -> str:

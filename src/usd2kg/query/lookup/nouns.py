@@ -1,8 +1,9 @@
 """Nouns: from words in a question to objects of the graph."""
 
 import re
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 from dataclasses import replace
+from functools import cached_property
 
 import pyoxigraph as ox
 
@@ -18,7 +19,7 @@ from usd2kg.query.lookup.general_kinds import find_more_general
 from usd2kg.query.lookup.kinds import Kinds
 from usd2kg.query.lookup.modifiers import PhraseModifiers, restricts
 from usd2kg.query.lookup.names import NameMatcher
-from usd2kg.query.lookup.prepositions import RELATION_OF, preposition_pattern
+from usd2kg.query.lookup.prepositions import DIRECTLY, RELATION_OF, preposition_pattern
 from usd2kg.query.lookup.related_things import find_below, find_parts, find_related
 from usd2kg.query.lookup.things import Things, UnknownWordError
 from usd2kg.query.lookup.word_forms import (
@@ -50,10 +51,12 @@ _RELATIONS = ("on", "inside", "near", "above", "below", "attached", *_SIDES)
 """Relations in noun phrases: cups on the table."""
 _AS_PART = re.compile(r"(?<=\w) (a )?(parts?|components?|pieces?)$")
 _ORIGIN = {"from": "inside"}
-"""Prepositions of noun phrases only: the milk from the fridge is inside it, but what hangs from it is not."""
+"""Prepositions of noun phrases only: the milk from the fridge is in or on it, but what hangs from it is not."""
 _PREPOSITIONS = "|".join([preposition_pattern(_RELATIONS), *_ORIGIN])
 _RELATION_OF = {**RELATION_OF, **_ORIGIN}
-_RELATION = re.compile(rf"(?P<first>.+?) (?:that (?:is|are) )?(?P<relation>{_PREPOSITIONS}) (?P<second>.+)")
+_RELATION = re.compile(
+    rf"(?P<first>.+?) (?:that (?:is|are) )?(?P<direct>{DIRECTLY})?(?P<relation>{_PREPOSITIONS}) (?P<second>.+)"
+)
 
 
 class Nouns:
@@ -73,6 +76,8 @@ class Nouns:
         self._names = NameMatcher(facts, self._kinds)
         self.notes: list[str] = []
         """How unusual words of the noun phrases so far were read."""
+        self.guesses: list[str] = []
+        """Notes on words that were read as something else that is near: nothing follows if no such thing is found."""
 
     @property
     def _modifiers(self) -> PhraseModifiers:
@@ -147,7 +152,13 @@ class Nouns:
             short = self._of_head(words) if may_shorten else None
             if short is not None and len(short.iris) > 1 and concepts_named(" ".join(words)):
                 return None
-        return None if short is None else replace(short, note=f"“{' '.join(words)}” was read as “{short.text}”")
+        return None if short is None else replace(short, note=self._guess(words, short.text))
+
+    def _guess(self, words: Sequence[str], meant: str, how: str = "") -> str:
+        """Note that words were read as something else that is near, and return the note."""
+        note = f"“{' '.join(words)}” was read as “{meant}”{how}"
+        self.guesses.append(note)
+        return note
 
     def _of_head(self, words: Sequence[str]) -> Things | None:
         """Return the things of the last noun of a compound, or of its last two; None without such things."""
@@ -192,28 +203,16 @@ class Nouns:
             raise GraphError(things.absence)
         return things
 
-    def pair(self, kind: str) -> tuple[str, str]:
-        """Return the prim paths of the two things of a kind.
-
-        Raises:
-            GraphError: there are not two.
-        """
-        things = self.existing(kind)
-        if len(things.iris) != 2:
-            raise GraphError(f"there are {len(things.iris)} {things.text}; expected two, or the names of two")
-        one, other = map(self._facts.path, things.iris)
-        return one, other
-
     def _find(self, text: str) -> Things | None:
         """Return what a phrase means as it is written; None if a word is unknown."""
-        if not text:
+        if not text or text in _OPERATORS:
             return None
         if text in _EVERYTHING:
             return Things(tuple(self._facts.things), "thing")
         if found := self._names.named(text):
-            return Things(tuple(found), text)
+            return self._also_by_adjective(text, Things(tuple(found), text))
         if (by_words := self._names.of_words(text)) is not None:
-            return by_words
+            return self._also_by_adjective(text, by_words)
         readers = (
             self._modifiers.read_first,
             self._part_of,
@@ -226,6 +225,13 @@ class Nouns:
                 return restricted
         # The noun is known, and no object is one.
         return Things((), text) if self._names_a_kind(text) else None
+
+    def _also_by_adjective(self, text: str, named: Things) -> Things:
+        """Return things with a name, and all others to which its adjective applies: wooden crates, one of that name."""
+        meant = self._modifiers.read(text) if restricts(text.split(maxsplit=1)[0]) else None
+        if meant is None or set(named.iris).isdisjoint(meant.iris):
+            return named
+        return Things(tuple(self._facts.sorted({*named.iris, *meant.iris})), text)
 
     def _names_a_kind(self, text: str) -> bool:
         """Return whether a text names a kind of physical things, of which the scene may have none."""
@@ -247,7 +253,7 @@ class Nouns:
         if general is None:
             return found
         if may_shorten:
-            note = f"“{noun}” was read as “{general.text}”, which is more general"
+            note = self._guess([noun], general.text, ", which is more general")
             self.notes.append(note)
             return replace(general, note=note)
         raise GraphError(
@@ -278,6 +284,10 @@ class Nouns:
         """Return the objects below the groups that are named after a place: the reception area."""
         return self._names.in_area(text)
 
+    def is_area(self, text: str, iris: Collection[str]) -> bool:
+        """Return whether objects that a text means are several of a group, so that it means a place."""
+        return len(iris) > 1 and set(iris) <= self._names.in_area(text)
+
     def shells(self) -> set[str]:
         """Return what surrounds a room, which nobody asks for as a neighbour of a thing."""
         return {iri for noun in _SHELLS for iri in self.known(noun)}
@@ -295,6 +305,10 @@ class Nouns:
         """Return whether a noun means what heights are measured from."""
         return " ".join(split_phrase(text)) in _FLOORS
 
+    @cached_property
+    def _floors(self) -> set[str]:
+        return {iri for noun in _FLOORS for iri in self.known(noun)}
+
     def lacks_room(self, text: str) -> bool:
         """Return whether a noun means a room that the graph does not have."""
         noun = " ".join(split_phrase(text))
@@ -308,8 +322,11 @@ class Nouns:
         first = self._noun_within(" ".join(split_phrase(parts["first"])))
         if first is None:
             return None
-        near = self.around(_RELATION_OF[parts["relation"]], parts["second"], is_direct=False)
-        shown = f"{first.text} {parts['relation']} {parts['second']}"
+        is_direct = bool(parts["direct"])
+        near = self.around(_RELATION_OF[parts["relation"]], parts["second"], is_direct=is_direct)
+        if parts["relation"] in _ORIGIN:
+            near |= self.around("on", parts["second"], is_direct=is_direct)
+        shown = f"{first.text} {parts['direct'] or ''}{parts['relation']} {parts['second']}"
         return Things(tuple(iri for iri in first.iris if iri in near), shown)
 
     def _noun_within(self, noun: str) -> Things | None:
@@ -324,11 +341,15 @@ class Nouns:
             return self._absent(found, may_shorten=True) if found is not None and not found.iris else found
         if (head := self._of_head(words)) is None:
             return found
-        self.notes.append(f"“{noun}” was read as “{head.text}”")
+        self.notes.append(self._guess(words, head.text))
         return head
 
     def _part_of(self, text: str) -> Things | None:
         """Return the things that are parts of others, or of a group: `drawers of cabinet 10`."""
+        relation = _RELATION.fullmatch(text)
+        if relation is not None and " of" in relation["relation"]:
+            # What is on top of a table is no part of it.
+            return None
         noun, _, whole = text.partition(" of ")
         noun = _AS_PART.sub("", noun)
         first = self._noun_within(noun) if whole else None
@@ -359,6 +380,8 @@ class Nouns:
             if relation != "inside" or not (area := self._names.in_area(text)):
                 raise
             return area
+        if relation == "inside" and self.is_area(text, anchors.iris):
+            return self._names.in_area(text)
         found = self._in_relation(relation, anchors.iris, is_direct=is_direct)
         if relation == "inside" and not found and (area := self._names.in_area(text)):
             return area
@@ -370,6 +393,8 @@ class Nouns:
         """Return the objects in a relation to any of some anchors, by boxes where the graph does not state it."""
         if relation == "below":
             return {iri for anchor in anchors for iri in find_below(self._facts, anchor)}
+        # What is on a table is not on the floor.
+        is_direct = is_direct or (relation == "on" and set(anchors) <= self._floors)
         found = find_related(self._facts, relation, anchors, is_direct=is_direct)
         if relation not in _SIDES or found:
             return found
@@ -380,7 +405,8 @@ class Nouns:
         """Return whether a noun means the scene: the shop, or the room where the graph has none."""
         is_place = text in _WHOLE_PLACES or not _PLACE_KINDS.isdisjoint(hypernyms_of(text))
         is_scene = is_place or (text.isalpha() and text in noun_words(self._names.root))
-        return is_scene and not self._kinds.objects(text) and not (text == "room" and self._facts.has_rooms)
+        is_part = bool(self._kinds.objects(text) or self._names.in_area(text))
+        return is_scene and not is_part and not (text == "room" and self._facts.has_rooms)
 
     def _joined(self, text: str) -> Things | None:
         """Return the things of several nouns: `cups and plates`; none, with the first noun that nothing is."""
@@ -405,7 +431,7 @@ class Nouns:
             raise UnknownWordError(f"{measures[0]!r} is not understood without a noun")
         corrected, unknown, nearest = self._spelling.correct(words, self._is_known)
         if corrected != words and (found := self._find(" ".join(corrected))) is not None and found.iris:
-            return replace(found, note=f"“{' '.join(words)}” was read as “{' '.join(corrected)}”")
+            return replace(found, note=self._guess(words, " ".join(corrected)))
         shown = " ".join(unknown)
         raise UnknownWordError(
             f"{shown!r} is not understood; did you mean {' or '.join(nearest)}?"

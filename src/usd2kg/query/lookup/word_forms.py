@@ -46,7 +46,9 @@ _BEFORE_PLACE = (
 )
 _RELATIVE = re.compile(
     rf"\b(that|which|who) ((is|are|was|were) |{_PLACED} {_BEFORE_PLACE})"
-    rf"|(?<=\w )(standing|lying|sitting|hanging|resting|placed|located|directly|exactly) {_BEFORE_PLACE}",
+    rf"|(?<=\w )(standing|lying|sitting|hanging|resting|placed|located|exactly) {_BEFORE_PLACE}"
+    r"|(?<=\w )directly (?!(on|upon|in|inside)\b)"
+    rf"{_BEFORE_PLACE}",
     re.IGNORECASE,
 )
 """Relative pronouns with their verb, and participles and adverbs before a preposition."""
