@@ -34,7 +34,7 @@ UNDERSTOOD: Mapping[str, tuple[str, dict[str, str]]] = {
         {"relation": "on", "thing": "the kitchen table"},
     ),
     "what is there in the fridge": ("rel-what", {"relation": "in", "thing": "the fridge"}),
-    "anything in the sink?": ("rel-what", {"relation": "in", "thing": "the sink"}),
+    "anything in the sink?": ("rel-is", {"class": "anything", "relation": "in", "thing": "the sink"}),
     "Where\u2019s the kettle": ("where", {"thing": "the kettle"}),
     "in which room are the chairs?": ("where", {"thing": "the chairs"}),
     "how many cups are there?": ("how-many", {"class": "cups"}),
@@ -218,7 +218,11 @@ def test_a_place_for_a_thing_is_free(graph: GraphStore):
             abs(x - lower[0] - size[0] / 2) > size[0] / 2 + 0.1 or abs(y - lower[1] - size[1] / 2) > size[1] / 2 + 0.1
         )
         assert is_apart
-    assert "No level top has room" in ask_offline(graph, "where can I put the wardrobe?").sentence
+    assert "No level top has room" in ask_offline(graph, "where can I put a box of 3 by 3 m?").sentence
+
+
+def test_what_stands_on_the_floor_has_its_place_there(graph: GraphStore):
+    assert ask_offline(graph, "where can I put the wardrobe?").places == ("/Room/Floor",)
 
 
 def test_distances_are_gaps_between_boxes(graph: GraphStore):

@@ -29,6 +29,7 @@ class ComparisonAnswers:
     def __init__(self, facts: SceneFacts, nouns: Nouns, units: Units) -> None:
         self._facts = facts
         self._nouns = nouns
+        self._units = units
         self._text = units.text
         self._bodies = BodyMeasures(facts)
 
@@ -43,6 +44,7 @@ class ComparisonAnswers:
             "bigger-things": self._bigger_things,
             "more-than": self._more_than,
             "fits": self._fits,
+            "fits-in": self._fits_in,
         }
         return handlers.get(question)
 
@@ -220,6 +222,31 @@ class ComparisonAnswers:
         sentence = yes_or_no(bool(places), f"there is {where}{surfaces.suffix}.")
         understood = f"whether {name} fits on {surfaces.text}"
         return InterpretedAnswer(understood, facts.table(spots, center_m=spots), bool(places), sentence=sentence)
+
+    def _fits_in(self, thing: str, other: str) -> InterpretedAnswer:
+        """Return whether a thing fits into others by their outer sizes, turned in any way."""
+        things, holders = self._nouns.existing(thing), self._nouns.existing(other)
+        sizes = [self._facts.body(iri).extents for iri in things.iris]
+        spaces = {iri: self._facts.body(iri).extents for iri in holders.iris}
+        if None in sizes or None in spaces.values():
+            raise GraphError(f"not known: the graph has no box for some of {things.text} and {holders.text}")
+        # Extents are in ascending order.
+        wide = [
+            iri
+            for iri, space in spaces.items()
+            for size in sizes
+            if size and space and all(map(float.__lt__, size, space))
+        ]
+        found = next(iter(wide), holders.iris[0])
+        smaller = self._units.sides((sizes[0] or ())[::-1])
+        larger = self._units.sides((spaces[found] or ())[::-1])
+        said = f"{things.text} measures {smaller}, {self._facts.label(found)} {larger} on the outside"
+        return InterpretedAnswer(
+            f"whether {things.text} fits into {holders.text}",
+            self._facts.table(dict.fromkeys(wide)),
+            bool(wide),
+            sentence=yes_or_no(bool(wide), f"{said}{things.suffix}{holders.suffix}."),
+        )
 
     def _range_text(self, low: float, high: float, measure: Measure) -> str:
         """Return a range of measures: 31 cm, 31 cm to 1.2 m; sizes without their unit, m³."""

@@ -8,7 +8,16 @@ from usd2kg.assistant.units import Units
 from usd2kg.errors import GraphError
 from usd2kg.query.lookup import Nouns, SceneFacts, Things
 from usd2kg.query.lookup.amounts import read_amount
-from usd2kg.query.lookup.body_measures import COMPARED, MASS, MEASURES, SIZE, SUPERLATIVES, BodyMeasures, Measure
+from usd2kg.query.lookup.body_measures import (
+    COMPARED,
+    ELEVATION,
+    MASS,
+    MEASURES,
+    SIZE,
+    SUPERLATIVES,
+    BodyMeasures,
+    Measure,
+)
 
 __all__ = ["DifferenceAnswers"]
 
@@ -72,10 +81,11 @@ class DifferenceAnswers:
             )
         return things, low
 
-    def _is_limit(self, thing: str, adjective: str, amount: str) -> InterpretedAnswer:
-        """Return whether things have more or less of a measure than an amount."""
+    def _is_limit(self, thing: str, adjective: str, amount: str, placed: str = "") -> InterpretedAnswer:
+        """Return whether things have more or less of a measure than an amount; of height, where they are mounted."""
         things = self._nouns.existing(thing)
         measure, sign = COMPARED[adjective.lower()]
+        measure = ELEVATION if placed else measure
         value, unit = read_amount(amount)
         if measure is SIZE or unit != measure.unit:
             raise GraphError(f"{amount!r} does not measure what is {adjective}; expected a number with {measure.unit}")

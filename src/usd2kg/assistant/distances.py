@@ -44,6 +44,7 @@ class DistanceAnswers:
             "nearer": self._nearer,
             "nearer-than": self._nearer_than,
             "passes": self._passes,
+            "passes-two": lambda distance, kind: self._passes(distance, *self._things.pair(kind)),
             "rise": self._rise,
         }
         return handlers.get(question)

@@ -228,8 +228,11 @@ class MeasureAnswers:
     def _free_tops(self, text: str, size: tuple[float, float, float], moved: tuple[str, ...]) -> InterpretedAnswer:
         """Return the level tops with room for a thing of a size in metres; `moved` takes no room."""
         facts, (width, depth, _) = self._facts, size
-        floors = set(self._nouns.known("floor"))
-        surfaces = [iri for iri in facts.things if iri in facts.supporters and iri not in moved and iri not in floors]
+        floors = self._nouns.floors
+        # What stands on the floor, such as a cart, has its place there.
+        is_on_floor = bool(moved) and all(floors.intersection(facts.anchors("on", iri)) for iri in moved)
+        tops = floors if is_on_floor else facts.supporters - floors
+        surfaces = [iri for iri in facts.things if iri in tops and iri not in moved]
         usual = {iri for noun in sorted(word_set("assistant", "surface_nouns")) for iri in self._nouns.known(noun)}
         found = find_free_places(facts, size, surfaces, moved)
         # A seat and a rug are level too, but people put things on tables.

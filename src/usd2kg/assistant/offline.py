@@ -27,6 +27,7 @@ from usd2kg.assistant.sentences import (
     the_thing,
     yes_or_no,
 )
+from usd2kg.assistant.series import SeriesAnswers
 from usd2kg.assistant.settings import SENTENCES
 from usd2kg.assistant.thing_lists import ThingLists
 from usd2kg.assistant.units import Units
@@ -93,7 +94,8 @@ class _Answerer:
         self._differences = DifferenceAnswers(self._facts, self._nouns, units)
         self._likeness = LikenessAnswers(self._facts, self._nouns, units)
         self._relations = RelationAnswers(graph.facts, self._nouns, units)
-        self._openings = OpeningAnswers(graph, self._nouns)
+        self._series = SeriesAnswers(graph.facts, self._nouns, units)
+        self._openings = OpeningAnswers(graph, self._nouns, units)
         self._things = ThingLists(self._facts, self._nouns)
 
     @property
@@ -216,6 +218,7 @@ class _Answerer:
             self._likeness.find,
             self._relations.find,
             self._openings.find,
+            self._series.find,
         )
         handler = next((found for find in finders if (found := find(question)) is not None), None)
         if handler is None:

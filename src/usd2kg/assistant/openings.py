@@ -1,12 +1,14 @@
-"""Answers about what is in the way of things that open."""
+"""Answers about things that move: what is in the way, how far they open, and what moves along."""
 
+import math
 from collections.abc import Callable, Collection
 from dataclasses import replace
 
 from usd2kg.assistant.interpreted_answer import InterpretedAnswer
-from usd2kg.assistant.sentences import begin_sentence, join_words, name_things, the_thing
+from usd2kg.assistant.sentences import begin_sentence, join_few, join_words, name_things, the_thing
 from usd2kg.assistant.swept_space import find_in_the_way
 from usd2kg.assistant.thing_lists import ThingLists
+from usd2kg.assistant.units import Units
 from usd2kg.errors import GraphError
 from usd2kg.query import Answer, GraphStore
 from usd2kg.query.answer import join_answers
@@ -17,10 +19,11 @@ __all__ = ["OpeningAnswers"]
 
 
 class OpeningAnswers:
-    """Answers about what has to be moved to open something."""
+    """Answers about things that open or move in one graph."""
 
-    def __init__(self, graph: GraphStore, nouns: Nouns) -> None:
+    def __init__(self, graph: GraphStore, nouns: Nouns, units: Units) -> None:
         self._graph = graph
+        self._text = units.text
         self._facts = graph.facts
         self._nouns = nouns
         self._things = ThingLists(graph.facts, nouns)
@@ -29,6 +32,8 @@ class OpeningAnswers:
         """Return the method that answers a question type; None if it is another's."""
         handlers: dict[str, Callable[..., InterpretedAnswer]] = {
             "is-blocked": self._is_blocked,
+            "joints": self._joints,
+            "moves-with": self._moves_with,
             "to-open": self._to_open,
             "to-open-from": self._to_open,
         }
@@ -78,3 +83,40 @@ class OpeningAnswers:
         is_blocked = bool(found.answer.rows)
         sentence = f"{'Yes' if is_blocked else 'No'}. {found.sentence}"
         return InterpretedAnswer(f"what blocks {thing}", found.answer, is_blocked, sentence=sentence)
+
+    def _joints(self, thing: str) -> InterpretedAnswer:
+        """Return the joints of things, and how far each of them moves."""
+        things = self._nouns.existing(thing)
+        found = join_answers([self._graph.answer("joints", {"thing": self._facts.path(iri)}) for iri in things.iris])
+        rows = [dict(zip(found.columns, values, strict=True)) for values in found.values]
+        parts = [
+            f"{row['moves'] or row['joint']} {self._motion(str(row['type']), row['range'])}"
+            for row in {row["joint"]: row for row in rows}.values()
+        ]
+        if not parts:
+            raise GraphError(f"not known: the stage has no joint for {things.text}, so how it opens is unknown")
+        sentence = f"{join_few(parts)}{things.suffix}."
+        return InterpretedAnswer(f"joints of {things.text}, and how far they open", found, sentence=sentence)
+
+    def _motion(self, kind: str, span: object) -> str:
+        """Return how a joint moves: radians for revolute joints, metres for prismatic ones."""
+        verb = "turns" if "Revolute" in kind or "Hinge" in kind else "slides"
+        if not isinstance(span, float):
+            return f"{verb} without stated limits"
+        return f"{verb} by {math.degrees(span):.0f}°" if verb == "turns" else f"{verb} by {self._text(span, 'm')}"
+
+    def _moves_with(self, thing: str, kind: str) -> InterpretedAnswer:
+        """Return the things of a kind that move along with others."""
+        things, what = self._nouns.existing(thing), self._nouns.find(kind)
+        found = join_answers(
+            [self._graph.answer("moves-along", {"thing": self._facts.path(iri)}) for iri in things.iris]
+        )
+        chosen = self._only(found, what.iris)
+        paths = dict.fromkeys(str(row[chosen.columns.index("path")]) for row in chosen.rows)
+        named = name_things(self._facts, [iri for path in paths for iri in self._facts.at_path(path)])
+        said = f"{named or f'no {what.text}'} {'move' if len(paths) > 1 else 'moves'} along with {things.text}"
+        return InterpretedAnswer(
+            f"{what.text} that move along with {things.text}",
+            chosen,
+            sentence=begin_sentence(f"{said}{things.suffix}{what.suffix}."),
+        )

@@ -48,17 +48,26 @@ _POLITE = re.compile(
 )
 _TRAILING = re.compile(
     r",?\s+(please|pls|thanks|thank you|bitte|in total|altogether|all together|overall|in all|anywhere|at all|exactly|"
-    r"right now|currently|for me|yes or no|or not|i mean|right|correct|or what|(is not|isn't|aren't) (it|there|they)|"
+    r"right now|just now|now|at the moment|at present|currently|for me|yes or no|or not|i mean|right|correct|or what|"
+    r"(is not|are not) (it|there|they)|"
     r"if (you have|there is|there's) (one|any|some)|what are my options|any ideas?|what do you (suggest|think))$",
     re.IGNORECASE,
 )
+_TOGETHER = re.compile(
+    r"^(?:how (?:much|heavy)|what) (?:do|does|are|is) (?P<thing>.+?)(?: weigh)?,? "
+    r"(?:in total|altogether|all together|together|combined|overall|in all)$",
+    re.IGNORECASE,
+)
+"""Asks for a sum of weights."""
 _COMMENT = re.compile(
     r",\s+(?:[^,]+ (?:together|altogether|included|combined|counted|in total)|(?:including|counting) [^,]+)$",
     re.IGNORECASE,
 )
 """A remark on what is counted, which does not change the question: `doors, folding doors included`."""
+_HERE = re.compile(r"\s+(right here|in here|here in this room|(around|over|somewhere) here)\b", re.IGNORECASE)
 _PLACED = re.compile(
-    r"(?<=\w )(standing|set|lying|sitting|hanging|resting|placed|located|mounted|positioned|kept|stored) "
+    r"(?<=\w )(?<!been )(?<!be )(standing|set|lying|sitting|hanging|resting|placed|located|mounted|positioned|kept|"
+    r"stored|loaded|left|dropped|stacked|parked|put|found|hidden|piled) "
     r"(?=(on|in|inside|at|by|near|under|next|beside|below|above|behind|between) \S)",
     re.IGNORECASE,
 )
@@ -153,6 +162,7 @@ def normalize(text: str) -> str:
     if asked != whole:
         # “If” is a part of “tell me if”; alone, it begins a condition.
         asked = re.sub(r"^(if|whether) ", "", asked, flags=re.IGNORECASE)
+    asked = _TOGETHER.sub(r"total weight of \g<thing>", asked)
     while (shorter := _TRAILING.sub("", asked).strip(" ?!.,")) != asked:
         asked = shorter
     asked = _COMMENT.sub("", asked).strip(" ?!.,")
@@ -163,7 +173,9 @@ def normalize(text: str) -> str:
         asked,
     )
     asked = _PLACED.sub("", re.sub(r"\b[ld]'(?=\w)", "", asked, flags=re.IGNORECASE))
-    asked = re.sub(r"\s+(right here|in here|here in this room)\b", "", asked, flags=re.IGNORECASE)
+    asked = re.sub(
+        r"\s+(right here|in here|here in this room|(around|over|somewhere) here)\b", "", asked, flags=re.IGNORECASE
+    )
     asked = re.sub(
         r"^(which|what)( one)? of (the |these |those )?(two |three |four )?", r"\1 ", asked, flags=re.IGNORECASE
     )

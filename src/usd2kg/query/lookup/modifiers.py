@@ -6,7 +6,7 @@ from collections.abc import Callable, Iterable, Iterator
 from usd2kg.errors import GraphError
 from usd2kg.knowledge import word_map, word_set
 from usd2kg.query.lookup.amounts import is_amount, read_amount
-from usd2kg.query.lookup.body_measures import COMPARED, SIZE, SUPERLATIVES, BodyMeasures, Measure
+from usd2kg.query.lookup.body_measures import COMPARED, MEASURES, SIZE, SUPERLATIVES, BodyMeasures, Measure
 from usd2kg.query.lookup.colors import COLORS, has_color, has_material, is_material
 from usd2kg.query.lookup.directions import find_between
 from usd2kg.query.lookup.facts import SceneFacts
@@ -29,8 +29,13 @@ _WITHIN = re.compile(
 )
 _BETWEEN = re.compile(r"(?P<first>.+?) between (?P<second>.+?) and (?P<third>.+)")
 _SAME_PLACE = re.compile(r"(?P<first>.+?) (?P<relation>on|in|inside) same (?P<second>.+?) as (?P<third>.+)")
+_RANGE = re.compile(
+    r"(?P<first>.+?) (?:that )?(?P<verb>weigh|weighs|weighing|measure|measures|measuring|with|of|is|are)? ?"
+    r"(?:an? |the )?(?:(?P<noun>height|width|length|depth|weight|mass)(?: of)? )?"
+    r"between (?P<low>[\d.]+)(?: ?(?P<unit>[a-z]+))? and (?P<high>[\d.]+ ?[a-z]+)(?: (?:in )?(?P<measure>[a-z]+))?"
+)
 _BEYOND = frozenset({"further than", "farther than", "more than"})
-_FOR_PURPOSE = re.compile(r"(?P<first>.+?) (?:to|for) (?P<verb>\w+)(?: (?:on|in|with|from|into|at))?")
+_FOR_PURPOSE = re.compile(r"(?P<first>.+?) (?:to|for) (?P<verb>\w+)(?: (?:up|down))?(?: (?:on|in|with|from|into|at))?")
 _WITH_NOTHING = re.compile(
     r"(?P<first>.+?) (?:(?:that )?(?:with|have|has) )?nothing (?:on|in|inside|on top)(?: of)?(?: (?:it|them|top))?"
 )
@@ -77,6 +82,7 @@ class PhraseModifiers:
             self._read_superlative,
             self._read_with,
             self._read_without,
+            self._read_range,
             self._read_within,
             self._read_nearest,
             self._read_between,
@@ -234,6 +240,21 @@ class PhraseModifiers:
         gaps = self._bodies.gaps(first.iris, second.iris)
         is_beyond = parts["which"] in _BEYOND
         return Things(tuple(iri for iri, gap in gaps.items() if (gap > limit) is is_beyond), text)
+
+    def _read_range(self, text: str) -> Things | None:
+        """Return the things of a noun with a measure from one amount to another: things that weigh 5 to 10 kg."""
+        parts = _RANGE.fullmatch(text)
+        first = self._find(parts["first"]) if parts is not None else None
+        if parts is None or first is None:
+            return None
+        high, unit = read_amount(parts["high"])
+        low, _ = read_amount(f"{parts['low']} {parts['unit'] or parts['high'].lstrip('0123456789. ')}")
+        word = parts["measure"] or parts["noun"] or ("weight" if unit == "kg" else "")
+        measure = MEASURES.get(word)
+        if measure is None or measure is SIZE or measure.unit != unit:
+            raise GraphError(f"{text!r} does not say which measure is meant; expected a range such as 1 to 2 m wide")
+        values = self._measured(first, measure)
+        return Things(tuple(iri for iri in first.iris if iri in values and low <= values[iri] <= high), text)
 
     def _read_nearest(self, text: str) -> Things | None:
         """Return the thing of a noun with the least or largest gap to others: `chair nearest to the desk`."""

@@ -19,8 +19,9 @@ from usd2kg.query.lookup.general_kinds import find_more_general
 from usd2kg.query.lookup.kinds import Kinds
 from usd2kg.query.lookup.modifiers import PhraseModifiers, restricts
 from usd2kg.query.lookup.names import NameMatcher
+from usd2kg.query.lookup.part_phrases import PartPhrases
 from usd2kg.query.lookup.prepositions import DIRECTLY, RELATION_OF, preposition_pattern
-from usd2kg.query.lookup.related_things import find_below, find_parts, find_related
+from usd2kg.query.lookup.related_things import find_below, find_related
 from usd2kg.query.lookup.things import Things, UnknownWordError
 from usd2kg.query.lookup.word_forms import (
     is_noun,
@@ -49,7 +50,6 @@ _LANGUAGES = ("de", "fr", "es", "it")
 _SIDES = ("left", "right", "front", "behind")
 _RELATIONS = ("on", "inside", "near", "above", "below", "attached", *_SIDES)
 """Relations in noun phrases: cups on the table."""
-_AS_PART = re.compile(r"(?<=\w) (a )?(parts?|components?|pieces?)$")
 _ORIGIN = {"from": "inside"}
 """Prepositions of noun phrases only: the milk from the fridge is in or on it, but what hangs from it is not."""
 _PREPOSITIONS = "|".join([preposition_pattern(_RELATIONS), *_ORIGIN])
@@ -83,6 +83,10 @@ class Nouns:
     def _modifiers(self) -> PhraseModifiers:
         # An attribute would be a reference cycle, which keeps the graph until the next full garbage collection.
         return PhraseModifiers(self._facts, self._find, self._noun_within)
+
+    @property
+    def _parts(self) -> PartPhrases:
+        return PartPhrases(self._facts, self._kinds, self._names, self._find, self._noun_within)
 
     def find(self, text: str, *, may_shorten: bool = True) -> Things:
         """Return the objects that a noun phrase means, and note how unusual words in it were read.
@@ -166,8 +170,12 @@ class Nouns:
             return None
         if not _OPERATORS.isdisjoint(words):
             return None
-        heads = (" ".join(words[start:]) for start in range(1, len(words)))
-        return next((found for head in heads if (found := self._find(head)) is not None and found.iris), None)
+        if (part := self._parts.read_compound(words)) is not None:
+            return part
+        heads = (self._find(" ".join(words[start:])) for start in range(1, len(words)))
+        found = next((head for head in heads if head is not None and head.iris), None)
+        # The door of an oven is not just any door, which is a part of something else.
+        return None if found is None or self._parts.are_parts(found) else found
 
     def _links(self, word: str) -> bool:
         return word in _CONNECTIVES or word in _RELATION_OF
@@ -215,7 +223,7 @@ class Nouns:
             return self._also_by_adjective(text, by_words)
         readers = (
             self._modifiers.read_first,
-            self._part_of,
+            self._parts.read,
             self._restricted,
             self._modifiers.read,
             self._joined,
@@ -251,6 +259,10 @@ class Nouns:
         noun = found.text
         general = find_more_general(self._facts, noun) if concepts_named(noun) and noun not in _ROOM_NOUNS else None
         if general is None:
+            *before, head = noun.split() or [noun]
+            parts = self._find(head) if before and is_noun(noun) else None
+            if parts is not None and self._parts.are_parts(parts):
+                raise GraphError(f"not known: no {noun} is known, but {len(parts.iris)} of {head} are parts of things")
             return found
         if may_shorten:
             note = self._guess([noun], general.text, ", which is more general")
@@ -306,7 +318,8 @@ class Nouns:
         return " ".join(split_phrase(text)) in _FLOORS
 
     @cached_property
-    def _floors(self) -> set[str]:
+    def floors(self) -> set[str]:
+        """What heights are measured from."""
         return {iri for noun in _FLOORS for iri in self.known(noun)}
 
     def lacks_room(self, text: str) -> bool:
@@ -344,28 +357,6 @@ class Nouns:
         self.notes.append(self._guess(words, head.text))
         return head
 
-    def _part_of(self, text: str) -> Things | None:
-        """Return the things that are parts of others, or of a group: `drawers of cabinet 10`."""
-        relation = _RELATION.fullmatch(text)
-        if relation is not None and " of" in relation["relation"]:
-            # What is on top of a table is no part of it.
-            return None
-        noun, _, whole = text.partition(" of ")
-        noun = _AS_PART.sub("", noun)
-        first = self._noun_within(noun) if whole else None
-        if first is None:
-            return None
-        wholes = self._find(" ".join(split_phrase(whole)))
-        parts = find_parts(self._facts, wholes.iris) if wholes is not None else set()
-        if chosen := tuple(iri for iri in first.iris if iri in parts):
-            return Things(chosen, text)
-        # The switch of the light is the light switch.
-        if whole and (compound := self._names.named(f"{whole} {noun}")):
-            return Things(tuple(compound), text)
-        below = self._names.in_area(whole)
-        chosen = tuple(iri for iri in first.iris if iri in below)
-        return Things(chosen, text) if chosen or wholes is not None else None
-
     def around(self, relation: str, text: str, *, is_direct: bool) -> set[str]:
         """Return the objects in a relation to the things that a noun phrase means, or in a part of the scene.
 
@@ -394,7 +385,7 @@ class Nouns:
         if relation == "below":
             return {iri for anchor in anchors for iri in find_below(self._facts, anchor)}
         # What is on a table is not on the floor.
-        is_direct = is_direct or (relation == "on" and set(anchors) <= self._floors)
+        is_direct = is_direct or (relation == "on" and set(anchors) <= self.floors)
         found = find_related(self._facts, relation, anchors, is_direct=is_direct)
         if relation not in _SIDES or found:
             return found
