@@ -98,3 +98,15 @@ def test_a_part_of_one_thing_is_not_that_of_another(kitchen: GraphStore):
 )
 def test_what_is_looked_for_is_located(kitchen: GraphStore, text: str, label: str):
     assert ask_offline(kitchen, text).sentence.startswith(f"{label} is on the worktop")
+
+
+def test_a_number_for_each(kitchen: GraphStore):
+    found = ask_offline(kitchen, "how many cups are on each table?")
+    counts = {str(row[0]): str(row[found.answer.columns.index("count")]) for row in found.answer.rows}
+    assert counts["barTable"] == "2"
+    assert found.number is None
+
+
+@pytest.mark.parametrize("end", ["? where?", " anywhere, and if so what is it on?", "? where is it?"])
+def test_a_second_question_about_the_place(kitchen: GraphStore, end: str):
+    assert ask_offline(kitchen, f"is there a toaster{end}").places

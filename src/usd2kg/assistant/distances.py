@@ -14,6 +14,7 @@ from usd2kg.query.body_table import Body
 from usd2kg.query.lookup import Nouns, SceneFacts, Things
 from usd2kg.query.lookup.amounts import read_amount
 from usd2kg.query.lookup.body_measures import BodyMeasures
+from usd2kg.query.lookup.related_things import find_parts, find_related
 
 __all__ = ["DistanceAnswers"]
 
@@ -74,7 +75,9 @@ class DistanceAnswers:
         what = self._nouns.find(values.get("class", "things"))
         # What holds a thing, and the shell of a room, is not a neighbour of it.
         holders = {one for iri in anchors.iris for name in ("on", "inside", "room") for one in facts.anchors(name, iri)}
-        holders |= self._nouns.shells()
+        # Nor are its own parts, and what is fixed to it.
+        holders |= self._nouns.shells() | find_parts(facts, anchors.iris)
+        holders |= find_related(facts, "attached", anchors.iris, is_direct=True)
         is_any = self._nouns.is_everything(values.get("class", "things"))
         candidates = what.iris if not is_any else [iri for iri in what.iris if iri not in holders]
         gaps = self._bodies.gaps(candidates, anchors.iris)

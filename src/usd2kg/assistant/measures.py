@@ -237,6 +237,8 @@ class MeasureAnswers:
         found = find_free_places(facts, size, surfaces, moved)
         # A seat and a rug are level too, but people put things on tables.
         places = ([place for place in found if place.surface in usual] or found)[: PLACING.max_places]
+        if not places and is_on_floor:
+            raise GraphError(f"not known: boxes over the floor leave no spot for {text} ({width:.2f} × {depth:.2f} m)")
         if not places:
             sentence = f"No level top has room for {text} ({width:.2f} × {depth:.2f} m)."
             return InterpretedAnswer(f"where to put {text}", facts.table(()), sentence=sentence)

@@ -4,7 +4,7 @@ import re
 from collections.abc import Callable, Sequence
 
 from usd2kg.assistant.interpreted_answer import InterpretedAnswer
-from usd2kg.assistant.sentences import begin_sentence, name_things, split_number, the_thing, yes_or_no
+from usd2kg.assistant.sentences import begin_sentence, join_few, name_things, split_number, the_thing, yes_or_no
 from usd2kg.assistant.thing_lists import ThingLists, column_of
 from usd2kg.assistant.units import Units
 from usd2kg.errors import GraphError
@@ -33,7 +33,8 @@ PREPOSITIONS = {
     "behind": "behind",
 }
 """Relation → preposition."""
-_ALL = re.compile(r"(all|every|each|both|everything)\b", re.IGNORECASE)
+_ALL = re.compile(r"(all|every|each|both|everything)\b|the [^?]*(?<!s)s$", re.IGNORECASE)
+_EACH = re.compile(r"(each|every)( one)?( of)?( the)? ", re.IGNORECASE)
 _BY_BOXES = frozenset(["above", "left", "right", "front", "behind"])
 """Relations that the boxes tell where the graph states none."""
 
@@ -110,8 +111,24 @@ class RelationAnswers:
 
     def _rel_count(self, kind: str, relation: str, thing: str) -> InterpretedAnswer:
         found = self._related(relation, thing, kind)
+        if _EACH.match(thing):
+            return self._count_each(kind, relation, thing)
         return InterpretedAnswer(
             f"number of {found.understood}", found.answer, number=len(found.answer.rows), sentence=found.sentence
+        )
+
+    def _count_each(self, kind: str, relation: str, thing: str) -> InterpretedAnswer:
+        """Return the number of things of a kind at each of several others."""
+        anchors, what = self._nouns.existing(_EACH.sub("", thing)), self._nouns.find(kind)
+        name, counts = relation_of(relation), dict[str, int]()
+        for iri in anchors.iris:
+            found = self._by_relation(name, self._facts.path(iri), anchors, is_direct=False)
+            counts[iri] = len(found.intersection(what.iris))
+        parts = [f"{count} {PREPOSITIONS[name]} {self._facts.label(iri)}" for iri, count in counts.items()]
+        return InterpretedAnswer(
+            f"number of {what.text} {relation} each of {anchors.text}",
+            self._facts.table(counts, count=counts),
+            sentence=f"{begin_sentence(what.text)}: {join_few(parts)}{what.suffix}{anchors.suffix}.",
         )
 
     def _rel_is(self, kind: str, relation: str, thing: str) -> InterpretedAnswer:

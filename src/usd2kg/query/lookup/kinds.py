@@ -65,7 +65,9 @@ class Kinds:
         return frozenset(iri for one in self._names(name) for iri in concepts_named(one)[:1])
 
     def _names(self, name: str) -> list[str]:
-        """Return a noun, its singular, and a noun that people use for it."""
+        """Return a noun, its singular, and a noun that people use for it; none for a name with a number: rack A1."""
+        if any(letter.isdigit() for letter in name):
+            return []
         *before, last = name.split() or [name]
         head = singular(last)
         return [name, *(" ".join([*before, noun]) for noun in (head, _INTERCHANGEABLE.get(head)) if noun)]

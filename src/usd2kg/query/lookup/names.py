@@ -77,6 +77,9 @@ class NameMatcher:
         """
         facts, names = self._facts, name_words(text)
         labelled = facts.sorted(self._with_words(names))
+        numbers = {word for word in names if word.isdigit()}
+        # Rack A1 is not rack A1_02.
+        labelled = [iri for iri in labelled if numbers and numbers == _numbers(facts.label(iri))] or labelled
         if len(labelled) > max(1, len(facts.things) * WORDS.max_label_share):
             # The name of a project or an asset pack says nothing about single objects.
             labelled = []
@@ -173,6 +176,10 @@ class NameMatcher:
         """The prim path that the groups of all objects begin with."""
         groups = {path.rpartition("/")[0] for path in self._facts.columns.paths}
         return os.path.commonpath([group for group in groups if group] or ["/"])
+
+
+def _numbers(label: str) -> set[str]:
+    return {word for word in name_words(label) if word.isdigit()}
 
 
 def _found(criterion: _Criterion) -> frozenset[str]:

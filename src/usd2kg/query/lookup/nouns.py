@@ -297,8 +297,9 @@ class Nouns:
         return self._names.in_area(text)
 
     def is_area(self, text: str, iris: Collection[str]) -> bool:
-        """Return whether objects that a text means are several of a group, so that it means a place."""
-        return len(iris) > 1 and set(iris) <= self._names.in_area(text)
+        """Return whether objects that a text means are of the group with that name, and hold nothing: it is a place."""
+        is_holder = len(iris) == 1 and bool(find_related(self._facts, "inside", iris, is_direct=True))
+        return bool(iris) and not is_holder and set(iris) <= self._names.in_area(text)
 
     def shells(self) -> set[str]:
         """Return what surrounds a room, which nobody asks for as a neighbour of a thing."""
