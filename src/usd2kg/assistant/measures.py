@@ -69,6 +69,8 @@ class MeasureAnswers:
             measure = AREA
         if measure is not MASS and self._nouns.is_whole_scene(" ".join(split_phrase(thing))):
             return self._measure_scene(thing, measure)
+        if self._nouns.is_group(noun := " ".join(split_phrase(thing))):
+            raise GraphError(f"not known: the graph has the things in the {noun}, not its walls")
         things = self._nouns.existing(thing)
         facts = self._facts
         if measure is HEIGHT and all(facts.kind(iri) in _OVERHEAD for iri in things.iris):

@@ -186,7 +186,10 @@ class Nouns:
         if not text.lower().startswith("the ") or len(found.iris) < 2 or is_plural(noun) or " " in noun:
             return found
         exact = tuple(iri for iri in found.iris if self._facts.kind(iri) == noun)
-        return replace(found, iris=exact) if exact else found
+        if not exact or len(exact) == len(found.iris):
+            return found
+        self.guesses.append(f"“{text}” was read as {len(exact)} of {len(found.iris)} things that may be meant")
+        return replace(found, iris=exact)
 
     def for_purpose(self, verb: str) -> Things:
         """Return the things for a purpose, those of the kinds that it names: cleaning equipment.
@@ -395,10 +398,17 @@ class Nouns:
 
     def is_whole_scene(self, text: str) -> bool:
         """Return whether a noun means the scene: the shop, or the room where the graph has none."""
-        is_place = text in _WHOLE_PLACES or not _PLACE_KINDS.isdisjoint(hypernyms_of(text))
-        is_scene = is_place or (text.isalpha() and text in noun_words(self._names.root))
+        is_scene = self._is_place(text) or (text.isalpha() and text in noun_words(self._names.root))
         is_part = bool(self._kinds.objects(text) or self._names.in_area(text))
         return is_scene and not is_part and not (text == "room" and self._facts.has_rooms)
+
+    def _is_place(self, text: str) -> bool:
+        return text in _WHOLE_PLACES or not _PLACE_KINDS.isdisjoint(hypernyms_of(text))
+
+    def is_group(self, text: str) -> bool:
+        """Return whether a noun means a place of which the graph only has the things in it, as a group."""
+        is_place = text in _ROOM_NOUNS or self._is_place(text)
+        return is_place and not self._kinds.objects(text) and bool(self._names.in_area(text))
 
     def _joined(self, text: str) -> Things | None:
         """Return the things of several nouns: `cups and plates`; none, with the first noun that nothing is."""
