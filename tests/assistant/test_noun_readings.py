@@ -79,3 +79,32 @@ def test_a_topic_beside_the_question_is_not_left_out(kitchen: GraphStore):
 
 def test_whats_colour_is_contracted(kitchen: GraphStore):
     assert "white" in ask_offline(kitchen, "what colour's the fridge?").sentence
+
+
+@pytest.mark.parametrize("text", ["is there music?", "where is the time?"])
+def test_a_scene_does_not_lack_an_abstraction(kitchen: GraphStore, text: str):
+    with pytest.raises(GraphError, match=r"is not (a word|understood)"):
+        ask_offline(kitchen, text)
+
+
+@pytest.mark.parametrize("text", ["fridge contents please", "list the contents of the fridge"])
+def test_contents(kitchen: GraphStore, text: str):
+    assert labels(kitchen, text) == labels(kitchen, "what is in the fridge?")
+
+
+@pytest.mark.parametrize(
+    ("text", "is_so"),
+    [
+        ("is the kettle within 50 cm of the toaster?", False),
+        ("is the kettle within 3 m of the toaster?", True),
+        ("would a 30 x 40 cm box fit on the bar table?", True),
+        ("are there at least three chairs?", True),
+        ("are the cups on the bar table?", False),
+    ],
+)
+def test_a_verdict(kitchen: GraphStore, text: str, is_so: bool):
+    assert ask_offline(kitchen, text).verdict is is_so
+
+
+def test_things_with_others_are_counted(kitchen: GraphStore):
+    assert ask_offline(kitchen, "how many tables have a cup on them?").number == 1

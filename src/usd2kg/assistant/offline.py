@@ -162,8 +162,9 @@ class _Answerer:
         own += [(self._answer_intent, intent) for intent in [parse_intent(text)] if intent is not None]
         own += [] if own else [(self._answer_noun, Phrase("noun", {"thing": normalize(text)}))]
         for other in paraphrases(text):
-            own += [(self._answer_phrase, phrase) for phrase in match_phrases(other)]
-            own += [(self._answer_intent, intent) for intent in [parse_intent(other)] if intent is not None]
+            read: list[tuple[_Reader, Phrase]] = [(self._answer_phrase, phrase) for phrase in match_phrases(other)]
+            read += [(self._answer_intent, intent) for intent in [parse_intent(other)] if intent is not None]
+            own += read or [(self._answer_noun, Phrase("noun", {"thing": other}))]
         # A pattern of all words tells more than a cue.
         return sorted(own, key=lambda reading: (reading[0] != self._answer_phrase, leaves_out(reading[1])))
 

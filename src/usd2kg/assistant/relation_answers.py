@@ -2,6 +2,7 @@
 
 import re
 from collections.abc import Callable, Sequence
+from dataclasses import replace
 
 from usd2kg.assistant.interpreted_answer import InterpretedAnswer
 from usd2kg.assistant.sentences import begin_sentence, join_few, name_things, split_number, the_thing, yes_or_no
@@ -84,7 +85,8 @@ class RelationAnswers:
             anchors, targets = self._nouns.find(kind), set(self._nouns.find(other).iris)
             name = relation_of(relation)
             chosen = [iri for iri in anchors.iris if find_related(self._facts, name, [iri], is_direct=False) & targets]
-            return self._things.answer(Things(tuple(chosen), f"{anchors.text} with {other} {PREPOSITIONS[name]} them"))
+            named = Things(tuple(chosen), f"{anchors.text} with {other} {PREPOSITIONS[name]} them")
+            return replace(self._things.answer(named), number=len(chosen))
         return self._related(relation, thing, kind)
 
     def _which_holder(self, relation: str, kind: str, thing: str) -> InterpretedAnswer:

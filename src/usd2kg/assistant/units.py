@@ -82,5 +82,5 @@ class Units:
         Raises:
             GraphError: it has no quantity in that unit.
         """
-        if self._symbol and re.search(rf"\d {re.escape(self._symbol)}(?!\w)", sentence) is None:
+        if self._symbol and re.search(rf"[\d)] {re.escape(self._symbol)}(?!\w)", sentence) is None:
             raise GraphError(f"{self._asked!r} is not understood: the answer has no quantity in {self._symbol}")

@@ -27,6 +27,7 @@ from usd2kg.query.lookup.word_forms import (
     is_noun,
     is_plural,
     noun_words,
+    singular,
     split_phrase,
 )
 
@@ -247,6 +248,10 @@ class Nouns:
     def _names_a_kind(self, text: str) -> bool:
         """Return whether a text names a kind of physical things, of which the scene may have none."""
         *before, head = text.split()
+        above = hypernyms_of(" ".join([*before, singular(head)]))
+        if "abstraction" in above and "artifact" not in above and not self._kinds.find(text):
+            # A scene does not lack a price or a time as it may lack a piano.
+            return False
         if self._kinds.find(text) or (concepts_named(text) and (before or head not in _RELATIONAL)):
             return True
         # The words before the head of a compound are nouns in the singular: book stack, but not doors part.
