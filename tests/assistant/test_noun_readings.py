@@ -100,6 +100,8 @@ def test_contents(kitchen: GraphStore, text: str):
         ("would a 30 x 40 cm box fit on the bar table?", True),
         ("are there at least three chairs?", True),
         ("are the cups on the bar table?", False),
+        ("do all apples have the same height?", True),
+        ("do all chairs have the same height?", False),
     ],
 )
 def test_a_verdict(kitchen: GraphStore, text: str, is_so: bool):

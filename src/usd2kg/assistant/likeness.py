@@ -119,6 +119,9 @@ class LikenessAnswers:
             )
         different = sorted(set(values.values()))
         is_so = len(different) == 1
+        if (measure := MEASURES.get(attribute.lower())) is not None:
+            amounts = self._bodies.values(things.iris, measure).values()
+            is_so = not self._bodies.differ(min(amounts), max(amounts))
         return InterpretedAnswer(
             f"whether all {things.text} have the same {attribute}",
             self._facts.table(things.iris),
