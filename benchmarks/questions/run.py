@@ -1,4 +1,4 @@
-"""Score answers to questions in people's own words about three scenes.
+"""Score answers to questions in people's own words about nine scenes.
 
 Usage: python -m benchmarks.questions.run [--split train|test] [--show]
 
@@ -30,6 +30,8 @@ SCENES = {
     "warehouse": SHARED / "scenes/aws_robomaker/small_warehouse.usdc",
     "franka": SHARED / "scenes/franka_kitchen/franka_kitchen.usdc",
     "apartment": SHARED / "scenes/iai_apartment/apartment.usdc",
+    "depot": ROOT / "benchmarks/scenes/warehouse/warehouse.usda",
+    "island": ROOT / "benchmarks/scenes/island_kitchen/island_kitchen.usdc",
 }
 """Name in the table → stage, but for the demo kitchen."""
 RIGHT, WRONG, REFUSED = "right", "wrong", "refused"
