@@ -9,26 +9,18 @@ import argparse
 from pathlib import Path
 
 from usd2kg.grounding import ObjectView
-from usd2kg.grounding.lexical.alignment.lexicon import build_lexicon
-from usd2kg.grounding.lexical.concepts.home_names import home_names
 from usd2kg.grounding.lexical.concepts.sizes import Size
-from usd2kg.grounding.lexical.concepts.taxonomy import load_taxonomy
 from usd2kg.grounding.lexical.grounder import LexicalGrounder
-from usd2kg.grounding.lexical.matching.phrase_matching import PhraseMatcher
-from usd2kg.grounding.lexical.matching.term_matching import TermMatcher
 from usd2kg.grounding.lexical.reading.head_noun import head_likelihood
-from usd2kg.grounding.lexical.reading.noun_phrase import NameReader
 from usd2kg.ontology import TBox
 from usd2kg.pipeline import open_tbox
 
 
 def explain(name: str, parents: tuple[str, ...], size: Size | None, tbox: TBox) -> list[str]:
     """Return the lines to print."""
-    taxonomy = load_taxonomy()
-    lexicon = build_lexicon(tbox, taxonomy, home_names())
-    reader = NameReader(lexicon, taxonomy)
-    matcher = PhraseMatcher(TermMatcher(tbox, lexicon, taxonomy, reader), taxonomy, reader)
-    phrase = reader.read(name, parents)
+    grounder = LexicalGrounder()
+    matcher = grounder.object_grounder(tbox).matcher
+    phrase = grounder.object_grounder(tbox).reader.read(name, parents)
     lines = [
         f"words: {' '.join(phrase.words)}",
         *(f"  “{written}” read as “{read}”" for written, read in phrase.corrections),
@@ -44,8 +36,8 @@ def explain(name: str, parents: tuple[str, ...], size: Size | None, tbox: TBox) 
     for match in matcher.match(phrase, parents, size)[:3]:
         lines.append(f"  {match.score:.2f}  {tbox.by_iri[match.class_iri].readable_name}: {match.explanation}")
     view = ObjectView(name=name, parents=parents, size=size)
-    (scored,) = LexicalGrounder().score_views([("/", view)], tbox)
-    (prediction,) = LexicalGrounder().ground_views([("/", view)], tbox)
+    (scored,) = grounder.score_views([("/", view)], tbox)
+    (prediction,) = grounder.ground_views([("/", view)], tbox)
     lines.append(f"all evidence; decided by: {', '.join(scored.prediction.evidence) or 'nothing'}")
     lines += [
         f"  {found.score:.2f}  {tbox.by_iri[found.class_iri].readable_name}" for found in prediction.candidates[:3]

@@ -59,7 +59,7 @@ def test_likelihood_ratios_have_mean_1_over_the_prior():
     view = next(view for obj, view in view_objects(scene) if obj.prim_path == GLASS)
     grounder = LexicalGrounder()
     found = grounder.weigh(view, [cls.iri for cls in TBOX.classes], TBOX)
-    prior = grounder._object_grounder(TBOX)._context.prior
+    prior = grounder.object_grounder(TBOX)._context.prior
     for group in ("size", "stance", "place"):
         ratios = {iri: e.likelihood_ratio for iri, items in found.items() for e in items if e.group == group}
         assert sum(prior.probability(iri) * (ratio or 0.0) for iri, ratio in ratios.items()) == pytest.approx(1)

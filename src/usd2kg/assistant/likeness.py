@@ -79,7 +79,7 @@ class LikenessAnswers:
         )
 
     def _values(self, iris: Sequence[str], attribute: str) -> dict[str, str]:
-        """Return what each thing has of an attribute, in words; things without it are left out."""
+        """Return each thing's value of an attribute, in words; things without one are left out."""
         word = attribute.lower()
         if word in _COLOR_NOUNS:
             found = {iri: next(iter(own_colors(self._facts, iri)), "") for iri in iris}

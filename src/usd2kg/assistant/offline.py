@@ -207,9 +207,8 @@ class _Answerer:
     def _answer_noun(self, noun: Phrase) -> InterpretedAnswer:
         return self._list(self._nouns.find(noun.given["thing"], may_shorten=False))
 
-    def _answer_phrase(self, phrase: Phrase) -> InterpretedAnswer:
-        check_left(phrase)
-        question, given = phrase.question, phrase.given
+    def find(self, question: str) -> Callable[..., InterpretedAnswer] | None:
+        """Return the method that answers a question type; None for a ready question."""
         finders = (
             self._handlers.get,
             self._measures.find,
@@ -221,10 +220,15 @@ class _Answerer:
             self._openings.find,
             self._series.find,
         )
-        handler = next((found for find in finders if (found := find(question)) is not None), None)
+        return next((found for find in finders if (found := find(question)) is not None), None)
+
+    def _answer_phrase(self, phrase: Phrase) -> InterpretedAnswer:
+        check_left(phrase)
+        handler = self.find(phrase.question)
         if handler is None:
-            return self._ready_question(question, given)
-        return handler(**{name.replace("class", "kind"): value for name, value in given.items()})
+            return self._ready_question(phrase.question, phrase.given)
+        # `class` is no name for a parameter.
+        return handler(**{name.replace("class", "kind"): value for name, value in phrase.given.items()})
 
     # Lists and counts.
 

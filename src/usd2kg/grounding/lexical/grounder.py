@@ -89,24 +89,25 @@ class LexicalGrounder:
         Raises:
             GroundingError: the grounder's own alignment is invalid.
         """
-        return self._object_grounder(tbox).format_alignment(others)
+        return self.object_grounder(tbox).format_alignment(others)
 
     def general_classes(self, tbox: TBox) -> frozenset[ClassIRI]:
         """Return the uninformative classes: the roots and the default class."""
-        return self._object_grounder(tbox).general_classes
+        return self.object_grounder(tbox).general_classes
 
     def weigh(
         self, view: ObjectView, candidates: Iterable[ClassIRI], tbox: TBox
     ) -> Mapping[ClassIRI, tuple[CandidateEvidence, ...]]:
         """Return what each source says about each candidate of a view: words, neighbours, size, stance and place."""
-        return self._object_grounder(tbox).weigh(view, candidates)
+        return self.object_grounder(tbox).weigh(view, candidates)
 
     def score_views(self, views: Sequence[tuple[str, ObjectView]], tbox: TBox) -> list[ScoredView]:
         """Return the best candidate of each (prim path, view), with an uncalibrated score."""
-        grounder = self._object_grounder(tbox)
+        grounder = self.object_grounder(tbox)
         return [grounder.predict(path, view) for path, view in views]
 
-    def _object_grounder(self, tbox: TBox) -> ObjectGrounder:
+    def object_grounder(self, tbox: TBox) -> ObjectGrounder:
+        """Return the grounder of single objects to the classes of a TBox."""
         return _make_object_grounder(tbox, self._use_home_synonyms, self._use_member_lists, self._alignment)
 
 

@@ -69,12 +69,12 @@ class ObjectGrounder:
         )
         self.general_classes = self._lexicon.general_classes
         """The roots, and the default class."""
-        reader = self._reader = NameReader(self._lexicon, taxonomy)
-        terms = TermMatcher(self._tbox, self._lexicon, taxonomy, reader)
-        matcher = PhraseMatcher(terms, taxonomy, reader)
+        self.reader = NameReader(self._lexicon, taxonomy)
+        terms = TermMatcher(self._tbox, self._lexicon, taxonomy, self.reader)
+        self.matcher = PhraseMatcher(terms, taxonomy, self.reader)
         self._is_fallback = terms.is_fallback
-        self._words = NameEvidence(self._lexicon, taxonomy, reader, matcher, self._similar_members())
-        self._context = ContextEvidence(self._tbox, self._words, reader, matcher, tables)
+        self._words = NameEvidence(self._lexicon, taxonomy, self.reader, self.matcher, self._similar_members())
+        self._context = ContextEvidence(self._tbox, self._words, self.reader, self.matcher, tables)
 
     def _similar_members(self) -> SimilarMembers | None:
         """Return the search for similar terms; None without lists of a model, since labels alone do not help."""
@@ -107,8 +107,8 @@ class ObjectGrounder:
         return weigh_candidates(self._words, self._context, view, candidates, self._tbox)
 
     def _unknown_share(self, prediction: Prediction, view: ObjectView) -> float:
-        words = prediction.words or self._reader.read(view.name, view.parents).words
-        unknown = [word for word in words if not self._reader.kinds.is_known(word)]
+        words = prediction.words or self.reader.read(view.name, view.parents).words
+        unknown = [word for word in words if not self.reader.kinds.is_known(word)]
         return len(unknown) / len(words) if words else 0.0
 
     def _predict(self, prim_path: str, view: ObjectView) -> ScoredView:
@@ -148,7 +148,7 @@ class ObjectGrounder:
         word_score = scored[0].score if scored else 0.0
         if word_score >= EVIDENCE.clear_score:
             return scored, word_score
-        if not (scored or view.is_masked or is_generated) and self._reader.names_known_noun(view.name):
+        if not (scored or view.is_masked or is_generated) and self.reader.names_known_noun(view.name):
             # The name is understood and no class fits, as for a tulip in a TBox of furniture: the classes of neighbours
             # could only be wrong.
             return [], word_score

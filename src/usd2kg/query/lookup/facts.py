@@ -21,7 +21,7 @@ __all__ = ["SceneFacts"]
 
 
 class SceneFacts:
-    """The facts of one graph, by IRI. Names, kinds and relations are columns of all objects; looks are read singly."""
+    """The facts of one graph, by IRI. Names, kinds and relations are columns; looks are read per object."""
 
     def __init__(self, dataset: Dataset, bodies: BodyIndex) -> None:
         self.dataset = dataset
@@ -64,7 +64,7 @@ class SceneFacts:
         ]
 
     def with_words(self, words: Iterable[str]) -> Iterator[tuple[str, str]]:
-        """Yield the objects and labels whose label may have all of some words, see `name_words`."""
+        """Yield the objects and labels whose label may contain all the words, see `name_words`."""
         stems = [common_stem(word) for word in words]
         columns = self.columns
         for iri, label, lower in zip(columns.iris, columns.labels, self._lower_labels, strict=True):
@@ -87,7 +87,7 @@ class SceneFacts:
 
     @cached_property
     def things(self) -> list[str]:
-        """The IRIs of objects that are not rooms, floors of rooms by name, or other places."""
+        """The IRIs of objects that are no places, such as rooms and floors that are named like rooms."""
         return [iri for iri, is_group in zip(self.columns.iris, self.columns.is_group, strict=True) if not is_group]
 
     def sorted(self, iris: Iterable[str]) -> list[str]:

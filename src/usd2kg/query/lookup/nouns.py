@@ -120,7 +120,7 @@ class Nouns:
         if not words:
             raise UnknownWordError(f"{exact!r} names no thing; expected a noun, such as table")
         if words[0] in _NEGATIONS:
-            raise UnknownWordError(f"{words[0]!r} is not understood in a name")
+            raise UnknownWordError(f"{words[0]!r} is not understood in a noun phrase")
         foreign = [
             word
             for last, word in zip(["", *words], words, strict=False)
@@ -128,14 +128,14 @@ class Nouns:
             if word in _QUESTION_WORDS and not (last.isalpha() and concepts_named(f"{last} {word}"))
         ]
         if foreign and not concepts_named(" ".join(words)):
-            raise UnknownWordError(f"{foreign[0]!r} is not understood in a name")
+            raise UnknownWordError(f"{foreign[0]!r} is not understood in a noun phrase")
         found = self._find(" ".join(words))
         if found is not None and found.iris:
             return self._of_this_name(text, found)
         if denied := _NEGATIONS.intersection(words):
             if found is not None:
                 return found
-            raise UnknownWordError(f"{min(denied)!r} is not understood in a name")
+            raise UnknownWordError(f"{min(denied)!r} is not understood in a noun phrase")
         read = self._translated(words, found) or self._shortened(words, may_shorten)
         return read or (self._absent(found, may_shorten) if found is not None else self._correct(words))
 

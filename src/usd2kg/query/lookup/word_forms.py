@@ -53,7 +53,7 @@ _RELATIVE = re.compile(
 )
 """Relative pronouns with their verb, and participles and adverbs before a preposition."""
 _MIN_STEM = 2
-"""Letters before an ending."""
+"""Fewest letters that remain before a stripped ending."""
 
 
 @lru_cache(maxsize=65536)
@@ -82,7 +82,7 @@ def is_plural(noun: str) -> bool:
 
 
 def common_stem(word: str) -> str:
-    """Return a beginning that all forms of a singular have.
+    """Return the prefix that the singular and the plural of a noun share.
 
     >>> common_stem("knife"), common_stem("battery"), common_stem("cup")
     ('kni', 'batter', 'cup')
