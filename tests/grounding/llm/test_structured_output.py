@@ -2,11 +2,13 @@
 
 import json
 from collections.abc import Iterator
+from dataclasses import replace
 
 import pytest
 
 from tests.grounding.llm import servers
-from tests.grounding.llm.connections import REQUEST, connect, fail
+from tests.grounding.llm.bedrock_server import converse_events, converse_reply, frame
+from tests.grounding.llm.connections import REQUEST, complete, connect, fail
 from usd2kg.grounding.llm.completion import Completion, Finish, Usage
 
 ANSWER = '{"class": "Cup"}'
@@ -115,3 +117,60 @@ def test_another_error_changes_no_form():
     text, attempts, _ = fail("openai:m", servers.refuse(400, "context of 4096 tokens exceeded"))
 
     assert (attempts, "context of 4096 tokens exceeded" in text) == (1, True)
+
+
+def anthropic_call(arguments: str) -> servers.Reply:
+    """Return a message of Anthropic that calls a tool."""
+    reply = servers.anthropic_reply("")
+    call = {"type": "tool_use", "id": "t", "name": "answer", "input": {}}
+
+    def events() -> Iterator[str]:
+        start, *_, end, stop = servers.anthropic_events([], finish="tool_use")
+        yield start
+        yield servers.sse({"type": "content_block_start", "index": 0, "content_block": call}, "content_block_start")
+        for piece in servers.pieces(arguments):
+            delta = {"type": "input_json_delta", "partial_json": piece}
+            yield servers.sse({"type": "content_block_delta", "index": 0, "delta": delta}, "content_block_delta")
+        yield servers.sse({"type": "content_block_stop", "index": 0}, "content_block_stop")
+        yield from (end, stop)
+
+    content = [call | {"input": json.loads(arguments)}]
+    return replace(reply, body={**reply.body, "content": content, "stop_reason": "tool_use"}, events=events)
+
+
+def bedrock_call(arguments: str) -> servers.Reply:
+    """Return a message of Bedrock that calls a tool."""
+    reply = converse_reply("")
+    call = {"toolUseId": "t", "name": "answer"}
+
+    def events() -> Iterator[bytes]:
+        start, *_, end, metadata = converse_events([], finish="tool_use")
+        yield start
+        yield frame("contentBlockStart", {"contentBlockIndex": 0, "start": {"toolUse": call}})
+        for piece in servers.pieces(arguments):
+            yield frame("contentBlockDelta", {"contentBlockIndex": 0, "delta": {"toolUse": {"input": piece}}})
+        yield frame("contentBlockStop", {"contentBlockIndex": 0})
+        yield from (end, metadata)
+
+    message = {"role": "assistant", "content": [{"toolUse": call | {"input": json.loads(arguments)}}]}
+    return replace(reply, body={**reply.body, "output": {"message": message}, "stopReason": "tool_use"}, events=events)
+
+
+@pytest.mark.parametrize("is_streamed", [True, False])
+@pytest.mark.parametrize(
+    ("model", "reply"),
+    [
+        ("anthropic:claude-haiku-4-5", anthropic_call(ANSWER)),
+        ("anthropic:claude-unheard-of", anthropic_call(ANSWER)),
+        ("bedrock:us.anthropic.claude-haiku-4-5-20251001-v1:0", bedrock_call(ANSWER)),
+        ("bedrock:meta.llama3-1-8b-instruct-v1:0", bedrock_call(ANSWER)),
+    ],
+)
+def test_an_answer_as_a_tool_call_is_read_like_text(model: str, reply: servers.Reply, is_streamed: bool):
+    """Some models call a tool that they were never offered, by the schema in their instructions."""
+    replies = [reply] if is_streamed else [servers.refuse(400, "no stream"), replace(reply, events=None)]
+    completion, received = complete(model, *replies)
+
+    assert "tools" not in received[-1].body and "toolConfig" not in received[-1].body
+    assert json.loads(completion.text) == json.loads(ANSWER)
+    assert (completion.finish, completion.usage) == (Finish.STOP, Usage(100, 60, 7))

@@ -1,5 +1,6 @@
 """Adapter between `Request`/`Completion` and the messages, settings and responses of pydantic-ai."""
 
+import json
 from codecs import getincrementaldecoder
 from collections.abc import Callable, Mapping
 from dataclasses import replace
@@ -170,8 +171,9 @@ def convert_response(
     from pydantic_ai.messages import TextPart, ThinkingPart, ToolCallPart  # noqa: PLC0415
 
     text = "".join(part.content for part in response.parts if isinstance(part, TextPart))
-    # The answer is the raw arguments of the tool call; the model may also write text before the call.
-    text = next((str(part.args or "") for part in response.parts if isinstance(part, ToolCallPart)), text)
+    # The answer is the arguments of the tool call; the model may also write text before the call.
+    calls = (part.args for part in response.parts if isinstance(part, ToolCallPart))
+    text = next((args if isinstance(args, str) else json.dumps(args or {}) for args in calls), text)
     thinking = "".join(part.content for part in response.parts if isinstance(part, ThinkingPart))
     finish = Finish.LENGTH if response.finish_reason == "length" else Finish.STOP
     usage = response.usage
