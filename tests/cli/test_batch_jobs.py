@@ -63,6 +63,12 @@ def test_prompts_are_one_job_at_half_the_price(run: Run, kitchen: Path, server: 
 
     assert done.code == 0, done.err
     assert classes(done.out) == {"Cup"}
+    estimate = re.search(
+        r"submitting 2 prompts to http://\S+: about ([\d,]+) input and \d+ output tokens, about \$([\d,.]+)", done.err
+    )
+    assert estimate is not None and done.err.index("submitting 2 prompts") < done.err.index("batch job batch_1")
+    # Half a cent for each token of the input.
+    assert float(estimate[2].replace(",", "")) == pytest.approx(int(estimate[1].replace(",", "")) / 200)
     assert "batch job batch_1: 2 prompts submitted to http://" in done.err
     assert re.search(r"ended 0:00:\d\d after its submission: 2 of 2 answers", done.err)
     # 100 tokens each, at half a cent.

@@ -2,7 +2,6 @@
 
 from collections import Counter
 from collections.abc import Iterator, Sequence
-from decimal import Decimal
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -22,17 +21,16 @@ __all__ = ["print_prompts", "print_requests", "report_cost", "report_prompts", "
 
 def print_prompts(batches: "list[Batch]", object_count: int, tariff: "Tariff | None", output: Path | None) -> None:
     """Print the prompts of a dry run, and to stderr their estimated tokens and price."""
-    from usd2kg.grounding.llm.estimates import estimate_usage  # noqa: PLC0415
-    from usd2kg.grounding.llm.prices import format_price  # noqa: PLC0415
+    from usd2kg.grounding.llm.estimates import estimate_run  # noqa: PLC0415
 
-    print_requests([batch.request for batch in batches], output)
-    usages = [estimate_usage(batch.request) for batch in batches]
-    tokens = sum(usage.input_tokens for usage in usages)
-    per_object = tokens / max(1, object_count)
-    price = "price unknown" if tariff is None else f"about {format_price(sum(map(tariff, usages), Decimal(0)))}"
+    requests = [batch.request for batch in batches]
+    print_requests(requests, output)
+    usage, price = estimate_run(requests, tariff)
+    per_object = usage.input_tokens / max(1, object_count)
     notify(
-        f"{count_noun(len(batches), 'prompt')} for {count_noun(object_count, 'object')}, about {tokens:,} input tokens "
-        f"({per_object:,.0f} per object) and {sum(usage.output_tokens for usage in usages):,} output tokens, {price}"
+        f"{count_noun(len(batches), 'prompt')} for {count_noun(object_count, 'object')}, "
+        f"about {usage.input_tokens:,} input tokens ({per_object:,.0f} per object) "
+        f"and {usage.output_tokens:,} output tokens, {price}"
     )
 
 

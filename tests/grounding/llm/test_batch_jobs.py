@@ -293,7 +293,8 @@ def test_an_option_that_the_service_rejects_is_left_out_of_a_second_job(tmp_path
     with serve_batches(answer) as server, session(server, "openai:m", tmp_path) as run:
         assert [one.text for one in run.complete(about(1), about(2))] == [CUP, CUP]
         assert server.asked == {"object 1": 2, "object 2": 2}
-        assert "2 submitted again without an option that the service rejects" in run.said[1]
+        assert [text.partition(" prompts to ")[0] for text in run.said[::3]] == ["submitting 2"] * 2
+        assert "2 submitted again without an option that the service rejects" in run.said[2]
 
 
 def test_jobs_have_as_many_requests_as_the_service_allows(tmp_path: Path, monkeypatch: pytest.MonkeyPatch):

@@ -3,13 +3,14 @@
 import json
 import struct
 from dataclasses import replace
+from decimal import Decimal
 
 import pytest
 
 from tests.grounding.records import make_class, make_tbox
 from usd2kg.grounding import ObjectView
 from usd2kg.grounding.llm.completion import Request, Usage
-from usd2kg.grounding.llm.estimates import estimate_input, estimate_usage
+from usd2kg.grounding.llm.estimates import estimate_input, estimate_run, estimate_usage
 from usd2kg.grounding.llm.prompt_options import PromptOptions, Strategy
 from usd2kg.grounding.llm.prompt_text import estimate_tokens
 from usd2kg.grounding.llm.prompts import build_requests
@@ -45,3 +46,14 @@ def test_estimates_images_by_their_pixels(width: int, height: int, tokens: int):
     assert estimate_input(request) == 2
     assert estimate_input(replace(request, images=(png, png))) == 2 + 2 * tokens
     assert estimate_input(replace(request, images=(b"no picture", b""))) == 2
+
+
+def test_adds_up_a_run_with_its_price():
+    batches = build_requests([ObjectView(name="a"), ObjectView(name="b")], TBOX, PromptOptions())
+    requests = [batch.request for batch in batches]
+
+    usage, price = estimate_run(requests, lambda used: Decimal(used.output_tokens))
+
+    assert usage == estimate_usage(requests[0]) + estimate_usage(requests[1])
+    assert price == f"about ${usage.output_tokens}.00"
+    assert estimate_run(requests, None) == (usage, "price unknown")

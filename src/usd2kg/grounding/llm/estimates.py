@@ -2,17 +2,26 @@
 
 import json
 from collections import Counter
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
+from decimal import Decimal
 from fractions import Fraction
 from typing import Any
 
 from usd2kg.grounding.llm.completion import Request, Usage
+from usd2kg.grounding.llm.prices import Tariff, format_price
 from usd2kg.grounding.llm.prompt_text import estimate_tokens
 from usd2kg.grounding.llm.settings import ESTIMATES, MEMBERS
 
-__all__ = ["estimate_input", "estimate_usage"]
+__all__ = ["estimate_input", "estimate_run", "estimate_usage"]
 
 _PNG_SIGNATURE = b"\x89PNG\r\n\x1a\n"
+
+
+def estimate_run(requests: Sequence[Request], tariff: Tariff | None) -> tuple[Usage, str]:
+    """Return an estimate of the tokens of some prompts and their answers, and of their price as text."""
+    usages = [estimate_usage(request) for request in requests]
+    price = "price unknown" if tariff is None else f"about {format_price(sum(map(tariff, usages), Decimal(0)))}"
+    return sum(usages, Usage()), price
 
 
 def estimate_usage(request: Request) -> Usage:

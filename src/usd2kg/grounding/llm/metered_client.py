@@ -1,7 +1,7 @@
 """MeteredClient: a client with a cache, a budget and a report of what was sent and spent."""
 
 from collections import Counter
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass, field
 from decimal import Decimal
@@ -12,7 +12,7 @@ from usd2kg.grounding.llm.answers import Defect
 from usd2kg.grounding.llm.batch_jobs.queue import BatchQueue
 from usd2kg.grounding.llm.cache import CompletionCache
 from usd2kg.grounding.llm.completion import Client, Completion, Request, Usage
-from usd2kg.grounding.llm.estimates import estimate_usage
+from usd2kg.grounding.llm.estimates import estimate_run, estimate_usage
 from usd2kg.grounding.llm.limits import LIMITS
 from usd2kg.grounding.llm.prices import Tariff, format_price
 from usd2kg.grounding.llm.serialization import request_key
@@ -185,7 +185,7 @@ class MeteredClient:
         Raises:
             GroundingError: see `BatchQueue.submit`.
         """
-        return self._queue is not None and self._queue.submit(self._refuse_beyond_budget)
+        return self._queue is not None and self._queue.submit(self._refuse_beyond_budget, self._describe_estimate)
 
     def collect_deferred(self) -> None:
         """Wait for the submitted jobs and count their tokens towards the budget.
@@ -282,6 +282,10 @@ class MeteredClient:
             self._spending.reserve(tokens, dollars)
             self._reserved = self._reserved[0] + tokens, self._reserved[1] + dollars
         return self._refused.keys() & new.keys()
+
+    def _describe_estimate(self, requests: Sequence[Request]) -> str:
+        usage, price = estimate_run(requests, self.tariff)
+        return f"about {usage.input_tokens:,} input and {usage.output_tokens:,} output tokens, {price}"
 
     def _exceeds_budget(self, tokens: int, dollars: Decimal) -> str | None:
         """Return why a prompt with this estimate exceeds the budget; None if it does not."""

@@ -91,12 +91,17 @@ class BatchQueue:
             raise GroundingError(failure)
         raise DeferredError("deferred to the next batch job")
 
-    def submit(self, refuse: Callable[[Mapping[str, Request], Mapping[str, Request]], Set[str]]) -> bool:
+    def submit(
+        self,
+        refuse: Callable[[Mapping[str, Request], Mapping[str, Request]], Set[str]],
+        describe: Callable[[Sequence[Request]], str],
+    ) -> bool:
         """Submit the deferred prompts that are not part of an open job; return whether any were deferred.
 
         Args:
             refuse: takes the prompts of open jobs and the new prompts by cache key, and returns the keys of the new
                 prompts not to submit.
+            describe: returns the estimated cost of prompts, which is reported before they are submitted.
 
         Raises:
             GroundingError: the service does not answer whether it received a job of an earlier run, or a prompt cannot
@@ -116,7 +121,10 @@ class BatchQueue:
             refused = refuse({key: deferred[key] for key in deferred.keys() & covered}, new)
             for job in running:
                 self._report_running(job)
-            submitted = self._submit_new([request for key, request in new.items() if key not in refused])
+            accepted = [request for key, request in new.items() if key not in refused]
+            if accepted:
+                self._reporting.say(f"submitting {len(accepted)} prompts to {self._service.url}: {describe(accepted)}")
+            submitted = self._submit_new(accepted)
         self._pending = [*running, *submitted]
         return True
 
