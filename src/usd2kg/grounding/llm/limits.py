@@ -64,6 +64,10 @@ class OperationalLimits:
     """Buffer for the text of one token of a local model."""
     max_added_tokens: int = 8
     """Special tokens that a tokenizer may add to a text."""
+    likely_tokens: int = 1024
+    """Possible next tokens that llama.cpp's server lists; reading as many takes less than computing them."""
+    max_known_texts: int = 4096
+    """Texts whose tokens are kept."""
 
 
 LIMITS = OperationalLimits()

@@ -10,11 +10,13 @@ from pathlib import Path
 
 import pytest
 
+from tests.grounding.llm.local.fake_xllamacpp import FakeXllamacpp
 from tests.grounding.llm.local.fakes import FakeModel, Probabilities
 from usd2kg.errors import GroundingError
 from usd2kg.grounding.llm.completion import Finish, Request, Usage
 from usd2kg.grounding.llm.factory import LLMSettings, open_llm_grounder
 from usd2kg.grounding.llm.local.client import LocalClient, is_local_model, open_local
+from usd2kg.grounding.llm.local.library import import_library
 
 SCHEMA = {
     "type": "object",
@@ -113,6 +115,7 @@ class TestOpen:
     @pytest.fixture(autouse=True)
     def library(self, monkeypatch: pytest.MonkeyPatch):
         monkeypatch.setitem(sys.modules, "llama_cpp", type(sys)("llama_cpp"))
+        monkeypatch.setitem(sys.modules, "xllamacpp", None)
 
     def test_recognises_the_scheme_gguf(self):
         assert is_local_model("gguf:model.gguf")
@@ -133,9 +136,21 @@ class TestOpen:
         (tmp_path / "model.gguf").write_bytes(b"GGUF")
         assert open_local("gguf:~/model.gguf").model == "gguf:~/model.gguf"
 
+    def test_uses_the_compiled_library_if_both_are_installed(self, monkeypatch: pytest.MonkeyPatch):
+        monkeypatch.setitem(sys.modules, "xllamacpp", type(sys)("xllamacpp"))
+        assert import_library("gguf:m.gguf").__name__ == "llama_cpp"
+
+    def test_uses_the_prebuilt_library_otherwise(self, tmp_path: Path, monkeypatch: pytest.MonkeyPatch):
+        monkeypatch.setitem(sys.modules, "llama_cpp", None)
+        monkeypatch.setitem(sys.modules, "xllamacpp", FakeXllamacpp(cups, "Cup", "Knife"))
+        path = tmp_path / "model.gguf"
+        path.write_bytes(b"GGUF")
+        with open_local(f"gguf:{path}") as client:
+            assert client.complete(REQUEST).text == ANSWER
+
     def test_reports_the_missing_extra(self, monkeypatch: pytest.MonkeyPatch):
         monkeypatch.setitem(sys.modules, "llama_cpp", None)
-        with pytest.raises(GroundingError, match=r"^model 'gguf:m\.gguf': .* run pip install 'usd2kg\[local\]'$"):
+        with pytest.raises(GroundingError, match=r"^model 'gguf:m\.gguf': .* run pip install 'usd2kg\[gguf\]'$"):
             open_local("gguf:m.gguf")
 
     def test_a_dry_run_needs_neither_library_nor_file(self, monkeypatch: pytest.MonkeyPatch):

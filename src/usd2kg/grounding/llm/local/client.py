@@ -11,8 +11,9 @@ from usd2kg.errors import GroundingError
 from usd2kg.grounding.llm.completion import Completion, Request, Usage
 from usd2kg.grounding.llm.local.decoding import DecodingPlan, TextTokenizer, TokenModel, decode_answer
 from usd2kg.grounding.llm.local.json_tokens import JsonStringTokens, classify_tokens
-from usd2kg.grounding.llm.local.library import check_weights, import_llama_cpp
+from usd2kg.grounding.llm.local.library import LLAMA_CPP, check_weights, import_library
 from usd2kg.grounding.llm.local.llama import LlamaModel
+from usd2kg.grounding.llm.local.server_model import ServerModel
 from usd2kg.grounding.llm.local.skeleton import read_schema
 from usd2kg.grounding.llm.local.tokenizer import Prompt
 
@@ -69,12 +70,13 @@ def open_local(model: str, *, threads: int = 1) -> "LocalClient":
         threads: number of CPU threads.
 
     Raises:
-        GroundingError: the extra `local` is not installed, or the file is missing or not GGUF.
+        GroundingError: neither the extra `gguf` nor `local` is installed, or the file is missing or not GGUF.
     """
-    library = import_llama_cpp(model)
+    library = import_library(model)
     path = Path(model.removeprefix(_SCHEME)).expanduser()
     check_weights(path)
-    return LocalClient(model, partial(LlamaModel, library, path, threads))
+    load: Callable[..., LocalModel] = LlamaModel if library.__name__ == LLAMA_CPP else ServerModel
+    return LocalClient(model, partial(load, library, path, threads))
 
 
 class LocalClient:

@@ -1,34 +1,48 @@
-"""Import of llama-cpp-python, and a check of the weights file before loading."""
+"""Import of the library that runs llama.cpp, and a check of the weights file before loading."""
 
+import importlib
 import logging
 from pathlib import Path
 from types import ModuleType
 
 from usd2kg.errors import GroundingError
 
-__all__ = ["check_weights", "import_llama_cpp"]
+__all__ = ["LLAMA_CPP", "XLLAMACPP", "check_weights", "import_library"]
+
+logger = logging.getLogger(__name__)
+
+LLAMA_CPP = "llama_cpp"
+"""Module of llama-cpp-python, compiled for this processor at its installation."""
+XLLAMACPP = "xllamacpp"
+"""Module with prebuilt wheels."""
 
 _MAGIC = b"GGUF"
 
 
-def import_llama_cpp(model: str) -> ModuleType:
-    """Return the module `llama_cpp`, with llama.cpp's log messages off.
+def import_library(model: str) -> ModuleType:
+    """Return the module `llama_cpp` if it is installed, else `xllamacpp`.
 
     Raises:
-        GroundingError: the extra `local` is not installed.
+        GroundingError: neither is installed.
     """
-    try:
-        import llama_cpp  # noqa: PLC0415 - the extra may be missing
-    except ImportError as error:
+    module = _import(LLAMA_CPP) or _import(XLLAMACPP)
+    if module is None:
         raise GroundingError(
-            f"model '{model}': the module {error.name} is not installed; "
-            "expected the extra `local`, run pip install 'usd2kg[local]'"
-        ) from error
-    # The library prints llama.cpp's messages unless its logger has a level.
-    if (logger := logging.getLogger("llama-cpp-python")).level == logging.NOTSET:
-        logger.setLevel(logging.CRITICAL)
-    module: ModuleType = llama_cpp
+            f"model '{model}': neither xllamacpp nor llama-cpp-python is installed; "
+            "expected the extra `gguf` or `local`, run pip install 'usd2kg[gguf]'"
+        )
+    # llama-cpp-python prints llama.cpp's messages unless its logger has a level.
+    if (messages := logging.getLogger("llama-cpp-python")).level == logging.NOTSET:
+        messages.setLevel(logging.CRITICAL)
     return module
+
+
+def _import(name: str) -> ModuleType | None:
+    try:
+        return importlib.import_module(name)
+    except ImportError as error:
+        logger.debug("%s cannot be imported: %s", name, error)
+        return None
 
 
 def check_weights(path: Path) -> None:

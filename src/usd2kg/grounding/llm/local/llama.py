@@ -17,7 +17,9 @@ import numpy.typing as npt
 
 from usd2kg.errors import GroundingError
 from usd2kg.grounding.llm.limits import LIMITS
-from usd2kg.grounding.llm.local.tokenizer import Prompt, Tokenizer
+from usd2kg.grounding.llm.local.context_size import context_size
+from usd2kg.grounding.llm.local.llama_tokenizer import LlamaTokenizer
+from usd2kg.grounding.llm.local.tokenizer import Prompt
 
 __all__ = ["LlamaModel"]
 
@@ -36,7 +38,7 @@ class LlamaModel:
         """Frees the resources of llama.cpp in reverse order."""
         self._free = weakref.finalize(self, self._stack.close)
         self._model = self._load()
-        self.tokenizer = Tokenizer(library, self._model)
+        self.tokenizer = LlamaTokenizer(library, self._model)
         self.window: int = library.llama_model_n_ctx_train(self._model)
         """Size of the context window in tokens, as trained."""
         self._batch = library.llama_batch_init(LIMITS.decode_batch_tokens, 0, 1)
@@ -101,7 +103,7 @@ class LlamaModel:
             return
         self._context_stack.close()
         self._cached, self._prompt, self._context_size = [], Prompt((), ()), 0
-        size = min(max(LIMITS.min_context_tokens, 1 << (size - 1).bit_length()), self.window)
+        size = context_size(size, self.window)
         settings = self._library.llama_context_default_params()
         settings.n_ctx, settings.n_batch, settings.n_ubatch = (
             size,
