@@ -1,146 +1,172 @@
-"""Measure cost and accuracy of prompt forms with one model on one scene, and the effect of class order and batch size.
+"""Measure the form of the prompt: tokens, seconds, and accuracy of a model on labelled objects.
 
-Usage: python -m benchmarks.llm.forms MODEL SCENE GOLD [FORM …] [--every N] [--completions FOLDER]
+Usage: python -m benchmarks.llm.forms [MODEL …] [--forms FORM …] [--scenes NAME …] [--objects N] [--record FILE]
 
-MODEL is a model string such as `gguf:FILE` or `openai:NAME@URL`. All forms ask about the same labelled objects. Prints
-a Markdown table: input tokens per object, cached ones among them, seconds per object, exact match with a 95 % interval,
-accepted answers, hierarchical F1, and the number of objects with another class than in the first form. Completions are
-stored in one file per form; an interrupted run resumes, and its tokens and seconds then cover the remaining prompts.
+Asks about N evenly spaced labels of each scene, adds the answers about each scene to the record, and prints a table of
+everything in the record. What it holds already is not asked again, so an interrupted run resumes. Without a MODEL, only
+the table is printed.
 """
 
 import argparse
+import json
 import time
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import asdict, dataclass, replace
 from pathlib import Path
 
-from usd2kg.evaluation.gold import GoldLabel, read_gold
-from usd2kg.evaluation.run import score_grounding
-from usd2kg.evaluation.summary import Summary
+from benchmarks.labelled_scenes import LabelledScene, load_scene, read_accuracy_matrix
+from benchmarks.llm.forms_table import Outcome, print_table
 from usd2kg.grounding import ground, make_grounder
 from usd2kg.grounding.llm.factory import LLMSettings, open_llm_grounder
+from usd2kg.grounding.llm.few_shot_choice import choose_examples
+from usd2kg.grounding.llm.grounder import LLMGrounder
 from usd2kg.grounding.llm.prompt_options import Strategy
-from usd2kg.ontology import ClassIRI, TBox, load_home_tbox
-from usd2kg.scene import Scene, read_scene
+from usd2kg.grounding.llm.prompts import Example
 
-PLAIN = "B"
-FORMS: Mapping[str, LLMSettings] = {
-    PLAIN: LLMSettings(""),
-    "A": LLMSettings("", strategy=Strategy.NAME_ONLY),
-    "C": LLMSettings("", strategy=Strategy.CHAIN_OF_THOUGHT),
-    "B, each object": LLMSettings("", is_each_object=True),
-    "B, tree": LLMSettings("", is_tree=True),
-    "B, shuffled 1": LLMSettings("", shuffle_seed=1),
-    "B, shuffled 2": LLMSettings("", shuffle_seed=2),
-    "B, shuffled 3": LLMSettings("", shuffle_seed=3),
-    "B, 5 a prompt": LLMSettings("", objects_per_prompt=5),
-    "B, 20 a prompt": LLMSettings("", objects_per_prompt=20),
-    "B, shortlist of 8": LLMSettings("", shortlist=8),
-    "A, shortlist of 8": LLMSettings("", strategy=Strategy.NAME_ONLY, shortlist=8),
+SCENES = ("Franka kitchen", "AWS small house", "Demo kitchen")
+NO_MODEL = "default grounder"
+
+
+@dataclass(frozen=True)
+class Form:
+    """A form of the prompt."""
+
+    settings: LLMSettings
+    base: str
+    """The form that its answers are compared to."""
+    examples: int = 0
+    """Labelled objects of the other scenes that the prompt shows."""
+
+
+_A = LLMSettings("", strategy=Strategy.NAME_ONLY)
+_SHORT_A = replace(_A, shortlist=8)
+_B = LLMSettings("")
+FORMS: Mapping[str, Form] = {
+    "A, shortlist of 8": Form(_SHORT_A, "A, shortlist of 8"),
+    "… shuffled 1": Form(replace(_SHORT_A, shuffle_seed=1), "A, shortlist of 8"),
+    "… shuffled 2": Form(replace(_SHORT_A, shuffle_seed=2), "A, shortlist of 8"),
+    "… as a tree": Form(replace(_SHORT_A, is_tree=True), "A, shortlist of 8"),
+    "… with 8 examples": Form(_SHORT_A, "A, shortlist of 8", examples=8),
+    "… 5 samples": Form(replace(_SHORT_A, samples=5), "A, shortlist of 8"),
+    "B, shortlist of 8": Form(replace(_B, shortlist=8), "A, shortlist of 8"),
+    "C, shortlist of 8": Form(replace(_B, strategy=Strategy.CHAIN_OF_THOUGHT, shortlist=8), "A, shortlist of 8"),
+    "A, all classes": Form(_A, "A, shortlist of 8"),
+    "A, all classes, shuffled 1": Form(replace(_A, shuffle_seed=1), "A, all classes"),
+    "A, all classes, tree": Form(replace(_A, is_tree=True), "A, all classes"),
+    "B, all classes": Form(_B, "A, all classes"),
+    "B, all classes, 5 a prompt": Form(replace(_B, objects_per_prompt=5), "B, all classes"),
 }
-"""Prompt forms; the first is the reference for the others."""
-
-
-@dataclass(frozen=True)
-class Task:
-    """The labelled objects of a scene."""
-
-    scene: Scene
-    gold: Sequence[GoldLabel]
-    tbox: TBox
-
-    @property
-    def paths(self) -> list[str]:
-        """The labelled prims."""
-        return [label.prim_path for label in self.gold]
-
-
-@dataclass(frozen=True)
-class Outcome:
-    """The result of one form."""
-
-    name: str
-    summary: Summary
-    classes: Mapping[str, ClassIRI | None]
-    tokens: float
-    kept: float
-    seconds: float
 
 
 def main() -> None:
-    """Print a row for each form when it is done."""
+    """Ask about what the record lacks, and print it."""
     options = parse_options()
-    tbox = load_home_tbox()
-    gold = read_gold(options.gold, tbox)[:: options.every]
-    task = Task(read_scene(options.scene, paths=[label.prim_path for label in gold]), gold, tbox)
-    print(f"{len(gold)} objects of {options.scene.name}, {len(tbox.classes)} classes\n")
-    print(
-        "| form | tokens per object | cached | seconds per object | exact % (95 %) | accepted % | HF1 | other class |"
-    )
-    print("| --- | --- | --- | --- | --- | --- | --- | --- |")
-    plain: Outcome | None = None
-    for outcome in outcomes(task, options):
-        plain = plain or outcome
-        print(row_of(outcome, plain), flush=True)
+    specs = {spec.name: spec for spec in read_accuracy_matrix().scenes}
+    scenes = [load_scene(specs[name]) for name in options.scenes]
+    record = Record(options.record)
+    for scene in scenes:
+        if not record.has(NO_MODEL, "", scene.name):
+            record.add(ask_default_grounder(scene, options.objects))
+    for model in options.models:
+        for form in options.forms or FORMS:
+            for outcome in ask_form(model, form, scenes, record, options):
+                record.add(outcome)
+    print_table(record.outcomes, scenes, {name: form.base for name, form in FORMS.items()})
 
 
 def parse_options() -> argparse.Namespace:
     """Return the command-line options."""
     parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("model")
-    parser.add_argument("scene", type=Path)
-    parser.add_argument("gold", type=Path)
-    parser.add_argument("forms", nargs="*", metavar="FORM", help=f"of: {'; '.join(FORMS)}; default: all")
-    parser.add_argument("--every", type=int, default=1, help="take every Nth labelled object")
-    parser.add_argument("--completions", type=Path, default=Path("build/forms"))
+    parser.add_argument("models", nargs="*", metavar="MODEL")
+    parser.add_argument("--forms", nargs="*", choices=FORMS, metavar="FORM", help=f"of: {'; '.join(FORMS)}")
+    parser.add_argument("--scenes", nargs="*", default=SCENES, metavar="NAME", help="names in accuracy/matrix.toml")
+    parser.add_argument("--objects", type=int, default=7, help="evenly spaced labels of each scene")
+    parser.add_argument("--record", type=Path, default=Path("build/forms.jsonl"))
     return parser.parse_args()
 
 
-def outcomes(task: Task, options: argparse.Namespace) -> Iterator[Outcome]:
-    """Yield the result of each form, then that of the default grounder, which uses no model."""
-    options.completions.mkdir(parents=True, exist_ok=True)
-    for name in options.forms or FORMS:
-        settings = replace(FORMS[name], model=options.model, completions=options.completions / f"{slug(name)}.sqlite")
-        yield ask(name, task, settings)
-    start = time.perf_counter()
-    grounding = ground(task.scene, task.tbox, make_grounder("lexical"), paths=task.paths)
-    seconds = time.perf_counter() - start
-    scored = score_grounding(grounding, task.gold, task.tbox, seconds)
-    classes = {p.prim_path: p.class_iri for p in grounding.predictions}
-    yield Outcome("no model", scored.summary, classes, 0, 0, seconds / len(task.gold))
+class Record:
+    """The outcomes of all runs, in a file of JSON lines."""
+
+    def __init__(self, path: Path) -> None:
+        self._path = path
+        lines = path.read_text().splitlines() if path.exists() else []
+        self.outcomes = [Outcome(**json.loads(line)) for line in lines]
+
+    def has(self, model: str, form: str, scene: str) -> bool:
+        """Return whether the answers of a model about a scene are recorded."""
+        return any((one.model, one.form, one.scene) == (model, form, scene) for one in self.outcomes)
+
+    def add(self, outcome: Outcome) -> None:
+        """Append an outcome."""
+        self.outcomes.append(outcome)
+        self._path.parent.mkdir(parents=True, exist_ok=True)
+        with self._path.open("a") as file:
+            file.write(json.dumps(asdict(outcome)) + "\n")
 
 
-def ask(name: str, task: Task, settings: LLMSettings) -> Outcome:
-    """Return the result of one form."""
-    with open_llm_grounder(settings) as grounder:
-        grounding = ground(task.scene, task.tbox, grounder, paths=task.paths)
-        usage, seconds = grounder.report.usage, grounder.report.seconds
-    count = len(task.gold)
-    scored = score_grounding(grounding, task.gold, task.tbox, seconds)
-    classes = {p.prim_path: p.class_iri for p in grounding.predictions}
+def ask_default_grounder(scene: LabelledScene, count: int) -> Outcome:
+    """Return the answers of the default grounder, which uses no model."""
+    start = time.process_time()
+    paths = spaced(scene.paths, count)
+    answers = ground(scene.scene, scene.tbox, make_grounder("lexical"), paths=paths).by_path
+    seconds = time.process_time() - start
+    return Outcome(NO_MODEL, "", scene.name, 0, 0, 0, seconds, {path: answers[path].class_iri for path in paths})
+
+
+def ask_form(
+    model: str, name: str, scenes: Sequence[LabelledScene], record: Record, options: argparse.Namespace
+) -> Iterator[Outcome]:
+    """Yield the answers of a model to a form of the prompt, for each scene that the record lacks."""
+    form = FORMS[name]
+    label = Path(model.removeprefix("gguf:")).name
+    missing = [scene for scene in scenes if not record.has(label, name, scene.name)]
+    completions = options.record.with_suffix(".sqlite")
+    completions.parent.mkdir(parents=True, exist_ok=True)
+    settings = replace(form.settings, model=model, completions=completions)
+    # Scenes with the same system prompt share the model's cache; with examples, each has its own.
+    for group in [[scene] for scene in missing] if form.examples else [missing]:
+        examples = examples_for(group[0], scenes, form.examples) if form.examples else []
+        with open_llm_grounder(settings, examples=examples) as grounder:
+            for scene in group:
+                yield ask(grounder, label, name, scene, options.objects)
+
+
+def ask(grounder: LLMGrounder, model: str, form: str, scene: LabelledScene, count: int) -> Outcome:
+    """Return the answers about a scene. The time is that of the processor, for models in this process."""
+    grounder.restart_report()
+    start = time.process_time()
+    paths = spaced(scene.paths, count)
+    answers = ground(scene.scene, scene.tbox, grounder, paths=paths).by_path
+    usage = grounder.report.usage
     return Outcome(
-        name, scored.summary, classes, usage.input_tokens / count, usage.cached_tokens / count, seconds / count
+        model,
+        form,
+        scene.name,
+        usage.input_tokens,
+        usage.cached_tokens,
+        usage.output_tokens,
+        time.process_time() - start,
+        {path: answers[path].class_iri for path in paths},
     )
 
 
-def slug(name: str) -> str:
-    """Return the name of a form as a file name.
+def examples_for(scene: LabelledScene, scenes: Sequence[LabelledScene], count: int) -> list[Example]:
+    """Return labelled objects of the other scenes, as many of each as fit."""
+    others = [other for other in scenes if other.name != scene.name]
+    decisions = [{label.prim_path: label.target for label in other.gold} for other in others]
+    pairs = zip(others, decisions, strict=True)
+    chosen = [one for other, known in pairs for one in choose_examples(other.scene, known, count // len(others))]
+    return [one for one in chosen if one.class_iri in scene.tbox.by_iri]
 
-    >>> slug("B, each object")
-    'B-each-object'
+
+def spaced(paths: Sequence[str], count: int) -> list[str]:
+    """Return at most `count` evenly spaced paths.
+
+    >>> spaced(["a", "b", "c", "d", "e"], 2)
+    ['a', 'c']
     """
-    return "-".join(name.replace(",", " ").split())
-
-
-def row_of(outcome: Outcome, plain: Outcome) -> str:
-    """Return a table row."""
-    summary, interval = outcome.summary, outcome.summary.ema_interval
-    others = sum(1 for path, iri in outcome.classes.items() if plain.classes.get(path) != iri)
-    return (
-        f"| {outcome.name} | {outcome.tokens:,.0f} | {outcome.kept:,.0f} | {outcome.seconds:.1f} "
-        f"| {summary.ema:.0f} ({interval.lower:.0f}–{interval.upper:.0f}) | {summary.ema_also:.0f} "
-        f"| {summary.hf1:.2f} | {others} |"
-    )
+    return list(paths[:: max(1, len(paths) // count)][:count])
 
 
 if __name__ == "__main__":
