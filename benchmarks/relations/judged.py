@@ -4,7 +4,8 @@ Usage: python -m benchmarks.relations.judged [SCENE...] (default: all)
 
 The lists are in `judged`; `on` and `inside` of the demo kitchen are written with the scene. The real scenes are read
 from the folder that the variable USD2KG_SHARED names, `../shared` by default, the FZK house from the Debian package
-assimp-testmodels, or the folder USD2KG_ASSIMP_MODELS; a missing one is skipped.
+assimp-testmodels, or the folder USD2KG_ASSIMP_MODELS; `benchmarks.scenes.garage.build` writes the garage. A missing one
+is skipped.
 """
 
 import csv
@@ -19,6 +20,8 @@ from typing import NamedTuple
 import usd2kg
 from benchmarks.intervals import wilson
 from benchmarks.labelled_scenes import ROOT, SHARED
+from benchmarks.scenes.garage.build import COMMAND as BUILD_GARAGE
+from benchmarks.scenes.garage.build import STAGE as GARAGE
 from usd2kg.demo import demo_relations, demo_scene
 from usd2kg.relations import Relation
 
@@ -33,6 +36,8 @@ class Sources(NamedTuple):
 
     stage: Path
     judged: tuple[Path, ...]
+    remedy: str = "set USD2KG_SHARED"
+    """What provides the stage where it is missing."""
 
 
 SCENES = {
@@ -51,9 +56,11 @@ SCENES = {
     "island_kitchen": Sources(
         ROOT / "benchmarks/scenes/island_kitchen/island_kitchen.usdc", (HERE / "judged/island_kitchen.csv",)
     ),
-    "fzk_house": Sources(ASSIMP_MODELS / "IFC/AC14-FZK-Haus.ifc", (HERE / "judged/fzk_house.csv",)),
+    "fzk_house": Sources(
+        ASSIMP_MODELS / "IFC/AC14-FZK-Haus.ifc", (HERE / "judged/fzk_house.csv",), "install assimp-testmodels"
+    ),
     "warehouse": Sources(ROOT / "benchmarks/scenes/warehouse/warehouse.usda", (HERE / "judged/warehouse.csv",)),
-    "garage": Sources(ROOT / "benchmarks/scenes/garage/garage.usdc", (HERE / "judged/garage.csv",)),
+    "garage": Sources(GARAGE, (HERE / "judged/garage.csv",), f"run {BUILD_GARAGE}"),
 }
 
 
@@ -180,8 +187,7 @@ def main(names: list[str]) -> None:
     for name in names or SCENES:
         source = SCENES[name]
         if not source.stage.exists():
-            where = "USD2KG_SHARED or USD2KG_ASSIMP_MODELS"
-            errors_and_notes.append(f"{name} is skipped: {source.stage} is missing; set {where}")
+            errors_and_notes.append(f"{name} is skipped: {source.stage} is missing; {source.remedy}")
             continue
         facts = [fact for path in source.judged for fact in read_judged(path)]
         tallies = compare(facts, usd2kg.build(source.stage).graph.relations)

@@ -11,6 +11,7 @@ from benchmarks.names.lists import PUBLIC_ONTOLOGIES
 from tests.conftest import shared_file
 from tests.graph.records import thing
 from tests.grounding.records import LAB, make_class, make_scene, make_tbox
+from tests.judged_scenes import judged_stage
 from tests.kitchen import kitchen_scene
 from usd2kg.grounding import NamingRegime, ground
 from usd2kg.ontology import TBox, load_home_tbox, load_tbox
@@ -106,7 +107,7 @@ def test_a_real_house_has_the_same_relations_under_a_list_of_labels():
 
 @cache
 def garage() -> Scene:
-    return read_scene(BENCHMARKS.parent / "scenes/garage/garage.usdc")
+    return read_scene(judged_stage("garage"))
 
 
 @cache
