@@ -24,6 +24,7 @@ from usd2kg.stores import EmbeddedStore, embedded, read_named_graph, view_scenes
 
 GIVEN = {
     "thing": "barTable",
+    "other": "toaster",
     "class": "cup",
     "position": "-1.5 0.4 1.1",
 }

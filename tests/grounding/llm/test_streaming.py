@@ -137,7 +137,8 @@ class TestCutoff:
             ANTHROPIC: Usage(100, 60, 126, estimated_tokens=126),
         }
         assert completion.usage == expected[model]
-        assert sent < 200
+        # The server sends on until the connection is closed, longer on a busy machine.
+        assert sent < 1_000
         assert [record for record in caplog.records if record.levelno >= logging.WARNING] == []
 
     @every_format
