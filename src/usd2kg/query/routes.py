@@ -9,7 +9,7 @@ import numpy as np
 
 from usd2kg.query.bodies import BodyIndex
 from usd2kg.query.dataset import Dataset
-from usd2kg.query.settings import ROUTE
+from usd2kg.query.settings import PASSAGE
 
 __all__ = ["RouteFinder", "Step"]
 
@@ -53,7 +53,7 @@ class RouteFinder:
         found: dict[str, list[str]] = defaultdict(list)
         for row in self._dataset.select(_CONNECTIONS):
             body = self._bodies.find(row["door"].value)
-            if body.lower is None or body.upper is None or body.upper[2] - body.lower[2] < ROUTE.min_door_height:
+            if body.lower is None or body.upper is None or body.upper[2] - body.lower[2] < PASSAGE.min_door_height:
                 continue
             found[row["door"].value].append(row["room"].value)
         return {door: rooms for door, rooms in found.items() if len(rooms) > 1}

@@ -9,14 +9,14 @@ __all__ = [
     "COMPLEXITY",
     "DIRECTIONS",
     "LOOKUP",
-    "ROUTE",
+    "PASSAGE",
     "SWEEP",
     "WORDS",
     "CacheSettings",
     "ComplexitySettings",
     "DirectionSettings",
     "LookupSettings",
-    "RouteSettings",
+    "PassageSettings",
     "SweepSettings",
     "WordSettings",
 ]
@@ -80,14 +80,14 @@ class CacheSettings(NamedTuple):
     abandoned_h: float
 
 
-class RouteSettings(NamedTuple):
+class PassageSettings(NamedTuple):
     """Which openings people walk through; lengths are metres."""
 
     min_door_height: float
 
 
 SWEEP = read_settings("query", "sweep", SweepSettings)
-ROUTE = read_settings("query", "route", RouteSettings)
+PASSAGE = read_settings("query", "passage", PassageSettings)
 LOOKUP = read_settings("query", "lookup", LookupSettings)
 WORDS = read_settings("query", "words", WordSettings)
 DIRECTIONS = read_settings("query", "directions", DirectionSettings)
