@@ -3,6 +3,8 @@ unexport PYTHONDONTWRITEBYTECODE
 PYTHON ?= python3
 BIN := .venv/bin
 READY := .venv/.ready
+# One more than there are cores, since some tests wait.
+WORKERS ?= $(shell $(PYTHON) -c "import os; print((os.cpu_count() or 1) + 1)")
 
 .DEFAULT_GOAL := help
 .PHONY: help setup demo test test-docs test-slow test-studio test-converters web web-check data data-check owl-jars elk-jars fuseki-jar sssom-check-env docs sbom release-check audit fuzz lint types layers accuracy accuracy-check wheel compatibility lock scene clean
@@ -23,7 +25,7 @@ demo: $(READY) ## Build the knowledge graph of the built-in kitchen and ask it t
 	$(BIN)/usd2kg demo -o build/kitchen.ttl
 
 test: $(READY) ## Run the tests
-	$(BIN)/python -m pytest -q -n auto --dist loadfile
+	$(BIN)/python -m pytest -q -n $(WORKERS) --dist worksteal
 
 test-slow: $(READY) ## Run the slow tests
 	$(BIN)/python -m pytest -q -m slow
