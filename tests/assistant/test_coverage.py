@@ -4,22 +4,13 @@ from collections.abc import Mapping
 
 import pytest
 
-import usd2kg
 from tests.assistant.question_variants import GOOD_QUESTIONS, variants
 from usd2kg.assistant import ask_offline
 from usd2kg.assistant.interpreted_answer import InterpretedAnswer
-from usd2kg.demo import demo_scene
 from usd2kg.errors import GraphError
 from usd2kg.query import GraphStore
 
 _SAID = ("Not taken into account:", "not about another time", "was read as", "excludes nothing")
-
-
-@pytest.fixture(scope="module")
-def kitchen(tmp_path_factory: pytest.TempPathFactory) -> GraphStore:
-    path = tmp_path_factory.mktemp("kitchen") / "kitchen.ttl"
-    usd2kg.write_graph(usd2kg.build(demo_scene()).graph, path)
-    return usd2kg.load_graph(path)
 
 
 @pytest.fixture(scope="module")

@@ -4,18 +4,9 @@ from collections.abc import Sequence
 
 import pytest
 
-import usd2kg
 from usd2kg.assistant import ask_offline
-from usd2kg.demo import demo_scene
 from usd2kg.errors import GraphError
 from usd2kg.query import GraphStore
-
-
-@pytest.fixture(scope="module")
-def kitchen(tmp_path_factory: pytest.TempPathFactory) -> GraphStore:
-    path = tmp_path_factory.mktemp("kitchen") / "kitchen.ttl"
-    usd2kg.write_graph(usd2kg.build(demo_scene()).graph, path)
-    return usd2kg.load_graph(path)
 
 
 def labels(graph: GraphStore, question: str) -> Sequence[str | None]:
