@@ -1,8 +1,9 @@
 """Answers that compare things: superlatives, two things, numbers of things, limits, and whether something fits."""
 
-from collections.abc import Callable
+from collections.abc import Mapping
 from itertools import product
 
+from usd2kg.assistant.answers import Answers, Handler
 from usd2kg.assistant.free_places import find_free_places
 from usd2kg.assistant.interpreted_answer import InterpretedAnswer
 from usd2kg.assistant.sentences import (
@@ -13,29 +14,20 @@ from usd2kg.assistant.sentences import (
     plural,
     yes_or_no,
 )
-from usd2kg.assistant.units import Units
 from usd2kg.errors import GraphError
-from usd2kg.query.lookup import Nouns, SceneFacts, UnknownWordError
+from usd2kg.query.lookup import UnknownWordError
 from usd2kg.query.lookup.amounts import NUMBER_WORDS, read_amount, read_sides
-from usd2kg.query.lookup.body_measures import COMPARED, ELEVATION, MASS, SAME, SIZE, SUPERLATIVES, BodyMeasures, Measure
+from usd2kg.query.lookup.body_measures import COMPARED, ELEVATION, MASS, SAME, SIZE, SUPERLATIVES, Measure
 from usd2kg.query.lookup.word_forms import singular
 
 __all__ = ["ComparisonAnswers"]
 
 
-class ComparisonAnswers:
+class ComparisonAnswers(Answers):
     """Answers that compare things."""
 
-    def __init__(self, facts: SceneFacts, nouns: Nouns, units: Units) -> None:
-        self._facts = facts
-        self._nouns = nouns
-        self._units = units
-        self._text = units.text
-        self._bodies = BodyMeasures(facts)
-
-    def find(self, question: str) -> Callable[..., InterpretedAnswer] | None:
-        """Return the method that answers a question type; None if it is another's."""
-        handlers: dict[str, Callable[..., InterpretedAnswer]] = {
+    def _handlers(self) -> Mapping[str, Handler]:
+        return {
             "superlative": self._superlative,
             "compare": self._compare,
             "choose": self._choose,
@@ -46,7 +38,6 @@ class ComparisonAnswers:
             "fits": self._fits,
             "fits-in": self._fits_in,
         }
-        return handlers.get(question)
 
     def _superlative(self, adjective: str, kind: str = "things", count: str = "1") -> InterpretedAnswer:
         """Return the things that come first by a measure, with those that are equal to the last of them."""

@@ -1,12 +1,12 @@
 """Answers about how much more of a measure a thing has than another, or than an amount, and whether it has the most."""
 
-from collections.abc import Callable
+from collections.abc import Mapping
 
+from usd2kg.assistant.answers import Answers, Handler
 from usd2kg.assistant.interpreted_answer import InterpretedAnswer
 from usd2kg.assistant.sentences import begin_sentence, join_few, yes_or_no
-from usd2kg.assistant.units import Units
 from usd2kg.errors import GraphError
-from usd2kg.query.lookup import Nouns, SceneFacts, Things
+from usd2kg.query.lookup import Things
 from usd2kg.query.lookup.amounts import read_amount
 from usd2kg.query.lookup.body_measures import (
     COMPARED,
@@ -15,31 +15,22 @@ from usd2kg.query.lookup.body_measures import (
     MEASURES,
     SIZE,
     SUPERLATIVES,
-    BodyMeasures,
     Measure,
 )
 
 __all__ = ["DifferenceAnswers"]
 
 
-class DifferenceAnswers:
+class DifferenceAnswers(Answers):
     """Answers about differences of measures in one graph."""
 
-    def __init__(self, facts: SceneFacts, nouns: Nouns, units: Units) -> None:
-        self._facts = facts
-        self._nouns = nouns
-        self._text = units.text
-        self._bodies = BodyMeasures(facts)
-
-    def find(self, question: str) -> Callable[..., InterpretedAnswer] | None:
-        """Return the method that answers a question type; None if it is another's."""
-        handlers: dict[str, Callable[..., InterpretedAnswer]] = {
+    def _handlers(self) -> Mapping[str, Handler]:
+        return {
             "difference": self._difference,
             "is-limit": self._is_limit,
             "is-most": self._is_most,
             "compare-measures": self._compare_measures,
         }
-        return handlers.get(question)
 
     def _difference(self, thing: str, adjective: str, other: str) -> InterpretedAnswer:
         """Return by how much two things differ in a measure."""

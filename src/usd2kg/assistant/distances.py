@@ -1,19 +1,17 @@
 """Answers about distances: between things, from side to side, up from the floor, and which of two is nearer."""
 
 import re
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 
 import numpy as np
 
+from usd2kg.assistant.answers import Answers, Handler
 from usd2kg.assistant.interpreted_answer import InterpretedAnswer
 from usd2kg.assistant.sentences import begin_sentence, join_few, yes_or_no
-from usd2kg.assistant.thing_lists import ThingLists
-from usd2kg.assistant.units import Units
 from usd2kg.errors import GraphError
 from usd2kg.query.body_table import Body
-from usd2kg.query.lookup import Nouns, SceneFacts, Things
+from usd2kg.query.lookup import Things
 from usd2kg.query.lookup.amounts import read_amount
-from usd2kg.query.lookup.body_measures import BodyMeasures
 from usd2kg.query.lookup.related_things import find_parts, find_related
 
 __all__ = ["DistanceAnswers"]
@@ -25,19 +23,11 @@ _NEAREST = re.compile(r"^(the )?(nearest|closest) ", re.IGNORECASE)
 _END = re.compile(r"(the )?(?P<end>bottom|underside|lower|top|upper)( edge| side| end| rim)? of ", re.IGNORECASE)
 
 
-class DistanceAnswers:
+class DistanceAnswers(Answers):
     """Answers about distances in one graph, by the boxes of things."""
 
-    def __init__(self, facts: SceneFacts, nouns: Nouns, units: Units) -> None:
-        self._facts = facts
-        self._nouns = nouns
-        self._text = units.text
-        self._bodies = BodyMeasures(facts)
-        self._things = ThingLists(facts, nouns)
-
-    def find(self, question: str) -> Callable[..., InterpretedAnswer] | None:
-        """Return the method that answers a question type; None if it is another's."""
-        handlers: dict[str, Callable[..., InterpretedAnswer]] = {
+    def _handlers(self) -> Mapping[str, Handler]:
+        return {
             "apart": lambda kind: self.distance(*self._things.pair(kind)),
             "distance": self.distance,
             "elevation": self._elevation,
@@ -48,7 +38,6 @@ class DistanceAnswers:
             "passes-two": lambda distance, kind: self._passes(distance, *self._things.pair(kind)),
             "rise": self._rise,
         }
-        return handlers.get(question)
 
     def distance(self, thing: str, other: str) -> InterpretedAnswer:
         """Return the gaps between things and the nearest of others."""

@@ -1,13 +1,13 @@
 """Answers about what things are like: a colour, a material, a kind, and what has the same as another."""
 
-from collections.abc import Callable, Sequence
+from collections.abc import Mapping, Sequence
 
+from usd2kg.assistant.answers import Answers, Handler
 from usd2kg.assistant.interpreted_answer import InterpretedAnswer
 from usd2kg.assistant.sentences import begin_sentence, join_few, name_things, the_thing, yes_or_no
-from usd2kg.assistant.units import Units
 from usd2kg.errors import GraphError
-from usd2kg.query.lookup import Nouns, SceneFacts, Things, UnknownWordError
-from usd2kg.query.lookup.body_measures import MEASURES, BodyMeasures
+from usd2kg.query.lookup import Things, UnknownWordError
+from usd2kg.query.lookup.body_measures import MEASURES
 from usd2kg.query.lookup.colors import COLORS, has_color, has_material, is_material, material_words, own_colors
 from usd2kg.query.lookup.modifiers import restricts
 
@@ -16,24 +16,16 @@ __all__ = ["LikenessAnswers"]
 _COLOR_NOUNS = frozenset(["colour", "color"])
 
 
-class LikenessAnswers:
+class LikenessAnswers(Answers):
     """Answers about the looks and kinds of things in one graph."""
 
-    def __init__(self, facts: SceneFacts, nouns: Nouns, units: Units) -> None:
-        self._facts = facts
-        self._nouns = nouns
-        self._text = units.text
-        self._bodies = BodyMeasures(facts)
-
-    def find(self, question: str) -> Callable[..., InterpretedAnswer] | None:
-        """Return the method that answers a question type; None if it is another's."""
-        handlers: dict[str, Callable[..., InterpretedAnswer]] = {
+    def _handlers(self) -> Mapping[str, Handler]:
+        return {
             "all-same": self._all_same,
             "is-kind": self._is_kind,
             "is-like": self._is_like,
             "same-as": self._same_as,
         }
-        return handlers.get(question)
 
     def _is_like(self, thing: str, adjective: str) -> InterpretedAnswer:
         """Return whether things have a colour, a material or a state that an adjective names."""

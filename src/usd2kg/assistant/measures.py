@@ -1,21 +1,21 @@
 """Answers about numbers and looks: sizes, masses, distances, colours, materials, places, confidence."""
 
-from collections.abc import Callable
+from collections.abc import Mapping
 
 import numpy as np
 
+from usd2kg.assistant.answers import Answers, Handler
 from usd2kg.assistant.free_places import find_free_places
 from usd2kg.assistant.interpreted_answer import InterpretedAnswer
 from usd2kg.assistant.sentences import begin_sentence, join_few, join_words, name_things, yes_or_no
 from usd2kg.assistant.settings import PLACING
-from usd2kg.assistant.units import Units
 from usd2kg.errors import GraphError
 from usd2kg.grounding import concepts_named
 from usd2kg.knowledge import word_map, word_set
 from usd2kg.query.body_table import Body
-from usd2kg.query.lookup import Nouns, SceneFacts, UnknownWordError
+from usd2kg.query.lookup import UnknownWordError
 from usd2kg.query.lookup.amounts import read_sides
-from usd2kg.query.lookup.body_measures import AREA, ELEVATION, HEIGHT, MASS, MEASURES, SIZE, BodyMeasures, Measure
+from usd2kg.query.lookup.body_measures import AREA, ELEVATION, HEIGHT, MASS, MEASURES, SIZE, Measure
 from usd2kg.query.lookup.colors import COLORS, has_color, has_material, is_material, material_words, own_colors
 from usd2kg.query.lookup.modifiers import restricts
 from usd2kg.query.lookup.related_things import find_parts
@@ -24,27 +24,17 @@ from usd2kg.query.settings import WORDS
 
 __all__ = ["MeasureAnswers"]
 
-Handler = Callable[..., InterpretedAnswer]
-
 
 _OVERHEAD = word_set("assistant", "overhead")
 _WITH_MATERIAL = "?s u2k:material []"
 _COLORED = "{ ?s u2k:color [] } UNION { ?s usd:hasColor/usd:primvars_displayColor [] }"
 
 
-class MeasureAnswers:
+class MeasureAnswers(Answers):
     """Answers to questions about numbers and looks."""
 
-    def __init__(self, facts: SceneFacts, nouns: Nouns, units: Units) -> None:
-        self._facts = facts
-        self._nouns = nouns
-        self._units = units
-        self._text = units.text
-        self._bodies = BodyMeasures(facts)
-
-    def find(self, question: str) -> Handler | None:
-        """Return the method that answers a question type; None if it is another's."""
-        handlers: dict[str, Handler] = {
+    def _handlers(self) -> Mapping[str, Handler]:
+        return {
             "measure": self._measure,
             "weigh": lambda thing: self._measure(thing, "heavy"),
             "color": self._color,
@@ -60,7 +50,6 @@ class MeasureAnswers:
             "sure": self._sure,
             "unknown": self._unknown,
         }
-        return handlers.get(question)
 
     def _measure(self, thing: str, adjective: str = "size") -> InterpretedAnswer:
         word = adjective.lower()

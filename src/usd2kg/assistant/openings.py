@@ -1,13 +1,13 @@
 """Answers about things that move: what is in the way, how far they open, and what moves along."""
 
 import math
-from collections.abc import Callable, Collection
+from collections.abc import Collection, Mapping
 from dataclasses import replace
 
+from usd2kg.assistant.answers import Answers, Handler
 from usd2kg.assistant.interpreted_answer import InterpretedAnswer
 from usd2kg.assistant.sentences import begin_sentence, join_few, join_words, name_things, the_thing
 from usd2kg.assistant.swept_space import find_in_the_way
-from usd2kg.assistant.thing_lists import ThingLists
 from usd2kg.assistant.units import Units
 from usd2kg.errors import GraphError
 from usd2kg.query import Answer, GraphStore
@@ -18,26 +18,21 @@ from usd2kg.query.lookup.related_things import find_related
 __all__ = ["OpeningAnswers"]
 
 
-class OpeningAnswers:
+class OpeningAnswers(Answers):
     """Answers about things that open or move in one graph."""
 
     def __init__(self, graph: GraphStore, nouns: Nouns, units: Units) -> None:
+        super().__init__(graph.facts, nouns, units)
         self._graph = graph
-        self._text = units.text
-        self._facts = graph.facts
-        self._nouns = nouns
-        self._things = ThingLists(graph.facts, nouns)
 
-    def find(self, question: str) -> Callable[..., InterpretedAnswer] | None:
-        """Return the method that answers a question type; None if it is another's."""
-        handlers: dict[str, Callable[..., InterpretedAnswer]] = {
+    def _handlers(self) -> Mapping[str, Handler]:
+        return {
             "is-blocked": self._is_blocked,
             "joints": self._joints,
             "moves-with": self._moves_with,
             "to-open": self._to_open,
             "to-open-from": self._to_open,
         }
-        return handlers.get(question)
 
     def _to_open(self, thing: str, other: str = "") -> InterpretedAnswer:
         """Return what is in the way of a thing that opens: by its joint, else by the boxes in front of it."""

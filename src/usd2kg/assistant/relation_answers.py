@@ -1,16 +1,16 @@
 """Answers about relations: what is on, in, near, above, between or beside others."""
 
 import re
-from collections.abc import Callable, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 
+from usd2kg.assistant.answers import Answers, Handler
 from usd2kg.assistant.interpreted_answer import InterpretedAnswer
 from usd2kg.assistant.sentences import begin_sentence, join_few, name_things, split_number, the_thing, yes_or_no
-from usd2kg.assistant.thing_lists import ThingLists, column_of
-from usd2kg.assistant.units import Units
+from usd2kg.assistant.thing_lists import column_of
 from usd2kg.errors import GraphError
 from usd2kg.knowledge import word_set
-from usd2kg.query.lookup import Nouns, SceneFacts, Things, UnknownWordError
+from usd2kg.query.lookup import Things, UnknownWordError
 from usd2kg.query.lookup.body_measures import BodyMeasures
 from usd2kg.query.lookup.directions import find_beside, find_between
 from usd2kg.query.lookup.prepositions import is_direct, relation_of
@@ -40,18 +40,11 @@ _BY_BOXES = frozenset(["above", "left", "right", "front", "behind"])
 """Relations that the boxes tell where the graph states none."""
 
 
-class RelationAnswers:
+class RelationAnswers(Answers):
     """Answers about relations of one graph."""
 
-    def __init__(self, facts: SceneFacts, nouns: Nouns, units: Units) -> None:
-        self._facts = facts
-        self._nouns = nouns
-        self._text = units.text
-        self._things = ThingLists(facts, nouns)
-
-    def find(self, question: str) -> Callable[..., InterpretedAnswer] | None:
-        """Return the method that answers a question type; None if it is another's."""
-        handlers: dict[str, Callable[..., InterpretedAnswer]] = {
+    def _handlers(self) -> Mapping[str, Handler]:
+        return {
             "between": self._between,
             "between-two": lambda kind: self._between(*self._things.pair(kind)),
             "rel-count": self._rel_count,
@@ -61,7 +54,6 @@ class RelationAnswers:
             "rel-both": self._rel_both,
             "which-holder": self._which_holder,
         }
-        return handlers.get(question)
 
     def _rel_what(self, relation: str, thing: str) -> InterpretedAnswer:
         return self._related(relation, thing, None)

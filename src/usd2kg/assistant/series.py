@@ -1,32 +1,24 @@
 """Answers about a measure of several things: in order, in total and on average."""
 
-from collections.abc import Callable
+from collections.abc import Mapping
 
+from usd2kg.assistant.answers import Answers, Handler
 from usd2kg.assistant.interpreted_answer import InterpretedAnswer
 from usd2kg.assistant.sentences import begin_sentence, join_few
-from usd2kg.assistant.units import Units
 from usd2kg.errors import GraphError
-from usd2kg.query.lookup import Nouns, SceneFacts, Things
-from usd2kg.query.lookup.body_measures import MASS, MEASURES, SIZE, SUPERLATIVES, BodyMeasures, Measure
+from usd2kg.query.lookup import Things
+from usd2kg.query.lookup.body_measures import MASS, MEASURES, SIZE, SUPERLATIVES, Measure
 
 __all__ = ["SeriesAnswers"]
 
 _MEANS = frozenset(["average", "mean"])
 
 
-class SeriesAnswers:
+class SeriesAnswers(Answers):
     """Answers about a measure of several things of one graph."""
 
-    def __init__(self, facts: SceneFacts, nouns: Nouns, units: Units) -> None:
-        self._facts = facts
-        self._nouns = nouns
-        self._text = units.text
-        self._bodies = BodyMeasures(facts)
-
-    def find(self, question: str) -> Callable[..., InterpretedAnswer] | None:
-        """Return the method that answers a question type; None if it is another's."""
-        handlers: dict[str, Callable[..., InterpretedAnswer]] = {"sorted": self._sorted, "total": self._total}
-        return handlers.get(question)
+    def _handlers(self) -> Mapping[str, Handler]:
+        return {"sorted": self._sorted, "total": self._total}
 
     def _sorted(self, kind: str, measure: str = "size", first: str = "") -> InterpretedAnswer:
         """Return the things of a kind by a measure, the most first unless the question says otherwise."""
