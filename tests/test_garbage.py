@@ -1,6 +1,8 @@
-"""`paused_collection` disables cyclic garbage collection and ages what was allocated."""
+"""Cyclic garbage collection is paused while allocating, and rare in a command."""
 
 import gc
+import subprocess
+import sys
 from collections.abc import Iterator
 
 import pytest
@@ -52,3 +54,23 @@ def test_keeps_collection_disabled_if_it_was():
         1 / 0  # noqa: B018
     assert not gc.isenabled()
     assert not is_old(made)
+
+
+FINALIZED_CYCLE = """
+import os
+class Cycle:
+    def __init__(self):
+        self.own = self
+    def __del__(self, write=os.write):
+        write(1, b"finalized")
+cycle = Cycle()
+"""
+
+
+@pytest.mark.parametrize(
+    ("start", "printed"), [("", "finalized"), ("from usd2kg.garbage import collect_rarely; collect_rarely()", "")]
+)
+def test_a_command_does_not_collect_at_exit(start: str, printed: str):
+    command = [sys.executable, "-c", start + FINALIZED_CYCLE]
+    done = subprocess.run(command, capture_output=True, text=True, check=True, timeout=60)
+    assert done.stdout == printed

@@ -21,6 +21,7 @@ from usd2kg.cli.output import emit, notify, to_single_line
 from usd2kg.cli.project_file import read_project_options
 from usd2kg.cli.terminal import forbid_colors
 from usd2kg.errors import Usd2kgError
+from usd2kg.garbage import collect_rarely
 from usd2kg.tracing import set_up_tracing
 
 __all__ = ["main", "make_app"]
@@ -128,6 +129,7 @@ def _options(
 
 def main() -> None:
     """Run the command line; a `Usd2kgError`, or running out of memory or stack, becomes one line and exit code 2."""
+    collect_rarely()
     for stream in (sys.stdout, sys.stderr):
         if isinstance(stream, io.TextIOWrapper):
             # Escape characters that the terminal's encoding lacks instead of failing.
