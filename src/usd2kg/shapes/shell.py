@@ -55,29 +55,31 @@ def shell_boxes(surface: Surface) -> list[Corners]:
 
 
 def _sample_cells(corners: Array, cell: float) -> _Cells:
-    # Two samples per cell leave no hole where a triangle crosses it obliquely.
-    points = _samples(corners, cell / 2)
-    places = [((column - column.min()) / cell + _SHIFT).astype(np.int64) for column in points]
-    shape = tuple(int(place.max()) + 1 for place in places)
-    which = np.ravel_multi_index(places, shape)
+    start = corners.min(axis=(0, 1))
+    shape = (((corners.max(axis=(0, 1)) - start) / cell + _SHIFT).astype(np.int64) + 1).tolist()
     lower, upper = np.full((3, math.prod(shape)), np.inf), np.full((3, math.prod(shape)), -np.inf)
-    for axis, column in enumerate(points):
-        np.minimum.at(lower[axis], which, column)
-        np.maximum.at(upper[axis], which, column)
+    # Two samples per cell leave no hole where a triangle crosses it obliquely.
+    for points in _samples(corners, cell / 2):
+        places = ((points - start[:, None]) / cell + _SHIFT).astype(np.int64)
+        # A sample may be outside the corners by a rounding error.
+        which = np.ravel_multi_index(tuple(places), shape, mode="clip")
+        for axis, column in enumerate(points):
+            np.minimum.at(lower[axis], which, column)
+            np.maximum.at(upper[axis], which, column)
     return _Cells(np.isfinite(lower[0]).reshape(shape), lower.reshape(3, *shape), upper.reshape(3, *shape))
 
 
-def _samples(corners: Array, spacing: float) -> Array:
-    """Return points (3, n) on triangles, no farther apart than a spacing, with all corners."""
+def _samples(corners: Array, spacing: float) -> Iterator[Array]:
+    """Yield points (3, n) on some triangles after others, no farther apart than a spacing, with all corners."""
     longest = np.sqrt(np.square(corners - np.roll(corners, 1, axis=1)).sum(axis=2)).max(axis=1)
     steps = np.clip(np.ceil(longest / spacing), 1, 4 * SHELL.cells).astype(np.int64)
-    points = []
-    for count in np.unique(steps).tolist():
-        a, b, c = corners[steps == count].transpose(1, 2, 0)[:, :, None]
-        i, j = np.meshgrid(np.arange(count + 1), np.arange(count + 1))
-        i, j = i[i + j <= count, None] / count, j[i + j <= count, None] / count
-        points.append(((1 - i - j) * a + i * b + j * c).reshape(3, -1))
-    return np.concatenate(points, axis=1)
+    for count in np.flatnonzero(np.bincount(steps)).tolist():
+        # The points of one triangle are contiguous, which numpy's inner loops need.
+        a, b, c = corners[steps == count].transpose(1, 2, 0)[..., None]
+        steps_b, steps_c = np.meshgrid(np.arange(count + 1), np.arange(count + 1))
+        is_in = steps_b + steps_c <= count
+        i, j = steps_b[is_in] / count, steps_c[is_in] / count
+        yield ((1 - i - j) * a + i * b + j * c).reshape(3, -1)
 
 
 def _blocks(is_met: NDArray[np.bool_], order: tuple[int, ...]) -> Iterator[tuple[slice, ...]]:
