@@ -3,6 +3,7 @@
 import ast
 import importlib
 import pkgutil
+import tomllib
 from itertools import chain
 from pathlib import Path
 from types import ModuleType
@@ -97,3 +98,8 @@ def test_lazy_names_are_typed():
 def test_unknown_name_is_an_attribute_error(name: str):
     with pytest.raises(AttributeError, match=f"module '{name}' has no attribute 'biuld'"):
         importlib.import_module(name).biuld  # noqa: B018
+
+
+def test_version_is_that_of_the_project():
+    project = Path(usd2kg.__path__[0]).parents[1] / "pyproject.toml"
+    assert usd2kg.__version__ == tomllib.loads(project.read_text("utf-8"))["project"]["version"]

@@ -7,6 +7,8 @@
 
 from typing import TYPE_CHECKING, Any
 
+from usd2kg.version import VERSION
+
 if TYPE_CHECKING:
     from usd2kg.errors import Usd2kgError
     from usd2kg.graph import KnowledgeGraph, instantiate, write_graph
@@ -18,6 +20,8 @@ if TYPE_CHECKING:
     from usd2kg.tables import Tables, to_tables
     from usd2kg.world import World
     from usd2kg.world import open as open
+
+__version__ = VERSION
 
 _PACKAGES = {
     "BuildResult": "pipeline",
@@ -69,10 +73,6 @@ def __dir__() -> list[str]:
 
 
 def __getattr__(name: str) -> Any:
-    if name == "__version__":
-        from importlib.metadata import version  # noqa: PLC0415
-
-        return version("usd2kg")
     # Lazy loading, so that `usd2kg --help` does not load OpenUSD.
     if name not in _PACKAGES:
         raise AttributeError(f"module 'usd2kg' has no attribute {name!r}")

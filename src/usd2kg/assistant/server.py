@@ -4,7 +4,6 @@ Results contain names from the scene; the server's instructions declare them as 
 """
 
 from collections.abc import Callable
-from importlib.metadata import version
 from typing import Any, TypeVar
 
 from mcp.server import MCPServer
@@ -18,6 +17,7 @@ from usd2kg.assistant.settings import RESULTS
 from usd2kg.errors import Usd2kgError, one_line
 from usd2kg.query import Answer, GraphStore
 from usd2kg.query.questions import Question, list_questions
+from usd2kg.version import VERSION
 
 __all__ = ["make_server"]
 
@@ -39,7 +39,7 @@ def make_server(
         run: runs a SPARQL query; by default `GraphStore.sparql`, which has no time limit.
         picture: returns a PNG of the object with the given name; None omits the tool `show`.
     """
-    server = MCPServer("usd2kg", instructions=_INSTRUCTIONS, version=version("usd2kg"), log_level="WARNING")
+    server = MCPServer("usd2kg", instructions=_INSTRUCTIONS, version=VERSION, log_level="WARNING")
     run_query = run or graph.sparql
 
     def tool(function: Callable[..., Any]) -> None:

@@ -23,6 +23,7 @@ from usd2kg.cli.terminal import forbid_colors
 from usd2kg.errors import Usd2kgError
 from usd2kg.garbage import collect_rarely
 from usd2kg.tracing import set_up_tracing
+from usd2kg.version import VERSION
 
 __all__ = ["main", "make_app"]
 
@@ -91,9 +92,7 @@ def make_app(arguments: Iterable[str] = ()) -> typer.Typer:
 
 def _print_version(is_wanted: bool) -> None:
     if is_wanted:
-        from importlib.metadata import version  # noqa: PLC0415
-
-        emit(f"usd2kg {version('usd2kg')}\n")
+        emit(f"usd2kg {VERSION}\n")
         raise typer.Exit
 
 

@@ -24,6 +24,7 @@ from usd2kg.cli.output import count_noun, notify, notify_notes, print_json
 from usd2kg.cli.scene_build import SceneBuild
 from usd2kg.cli.store import open_for_loading
 from usd2kg.errors import GroundingError, OutputError
+from usd2kg.version import VERSION
 
 if TYPE_CHECKING:
     from usd2kg.batch import Built, Job, Outcome, PoolLimits
@@ -223,12 +224,10 @@ def _loader(store: "SceneStore | None") -> "Callable[[Job], None]":
 
 def _hash_options(task: _BuildTask, tboxes: "Iterable[TBox]", ending: str, base: str) -> str:
     """Return a hash of all inputs of the graphs other than the scenes: options, their files, ontology and version."""
-    from importlib.metadata import version  # noqa: PLC0415
-
     steps = task.steps
     bundles = (steps.grounding, steps.reading, steps.spatial, steps.annotation)
     digest = hashlib.sha256()
-    for text in (version("usd2kg"), *(tbox.content_hash for tbox in tboxes), repr(task), ending, base):
+    for text in (VERSION, *(tbox.content_hash for tbox in tboxes), repr(task), ending, base):
         digest.update(text.encode() + b"\0")
     for path in (path for bundle in bundles for path, is_output in bundle_files(bundle) if not is_output):
         try:

@@ -14,6 +14,7 @@ import typer
 from usd2kg.cli.options.common import JsonOutput
 from usd2kg.cli.output import emit, print_json
 from usd2kg.cli.text_table import format_table
+from usd2kg.version import VERSION
 
 __all__ = ["doctor_command"]
 
@@ -38,7 +39,7 @@ def doctor_command(json: JsonOutput = False) -> None:
     """List versions, extras, caches and credentials; keys are never shown."""
     packages = list(_packages())
     report: dict[str, Any] = {
-        "usd2kg": version("usd2kg"),
+        "usd2kg": VERSION,
         "python": f"{platform.python_implementation()} {platform.python_version()}",
         "platform": platform.platform(),
         "packages": {one.name: one.version for one in packages if not one.extra},

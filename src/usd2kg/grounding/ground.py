@@ -12,6 +12,7 @@ from usd2kg.grounding.registry import GROUNDERS, make_grounder
 from usd2kg.ontology import ClassIRI, TBox
 from usd2kg.scene import Scene
 from usd2kg.tracing import traced
+from usd2kg.version import VERSION
 
 __all__ = ["ground", "parse_evidence", "parse_regime"]
 
@@ -44,9 +45,6 @@ def ground(
         carried: prim path → origin, for decisions that were made about another path.
         abbreviated_length: letters kept of each word in the abbreviated regime.
     """
-    # Imported here: parsing the package metadata takes as long as grounding a hundred names.
-    from importlib.metadata import version  # noqa: PLC0415
-
     if isinstance(grounder, str):
         grounder = make_grounder(grounder)
     views = {obj.prim_path: view for obj, view in view_objects(scene, regime, evidence, abbreviated_length)}
@@ -73,7 +71,7 @@ def ground(
             **grounder.settings,
         },
         is_calibrated=grounder.is_calibrated,
-        tool_version=version("usd2kg"),
+        tool_version=VERSION,
         predictions=tuple(by_path.get(path) or _missing(path, grounder.name) for path in wanted),
         concepts=concepts,
     )

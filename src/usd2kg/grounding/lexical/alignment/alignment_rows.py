@@ -5,7 +5,6 @@ import re
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from enum import Enum
-from importlib.metadata import version
 from pathlib import Path
 
 from usd2kg.errors import GroundingError, OntologyError
@@ -15,6 +14,7 @@ from usd2kg.grounding.sssom_file import Curies, SssomFile, SssomRow, cell_text, 
 from usd2kg.ontology import ClassIRI, TBox
 from usd2kg.ontology.namespaces import CONCEPT, SKOS, U2K, WORDNET
 from usd2kg.ontology.prefixes import PREFIXES
+from usd2kg.version import VERSION
 
 __all__ = ["SHIPPED_LISTS", "AlignmentRow", "RowKind", "format_rows", "parse_rows", "written_class"]
 
@@ -114,7 +114,7 @@ def format_rows(rows: Sequence[AlignmentRow], tbox: TBox, default: ClassIRI | No
         "mapping_set_title": f"Concepts and terms of {tbox.ontology_iri}",
         "license": _UNSPECIFIED_LICENSE,
         "mapping_tool": "usd2kg",
-        "mapping_tool_version": version("usd2kg"),
+        "mapping_tool_version": VERSION,
         "comment": _HOW_TO_EDIT,
         "subject_source": "https://wordnet.princeton.edu/",
         "subject_source_version": "3.1",
