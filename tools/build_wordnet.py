@@ -306,7 +306,7 @@ def build_columns(adjectives: Iterable[str], synsets: Sequence[Synset]) -> Taxon
             if lemma not in _PLURALS:
                 senses[_key(lemma)].append((rank, at))
     single = {lemma for synset in synsets for lemma, _ in synset.lemmas}
-    ordered = {lemma: sorted(found) for lemma, found in senses.items()}
+    ordered = {lemma: sorted(found) for lemma, found in sorted(senses.items())}
     kinds = (" ".join(f"{letters[synsets[at].domain]}{rank}" for rank, at in found) for found in ordered.values())
     columns = {
         "adjectives": "\t".join(adjectives),

@@ -37,25 +37,25 @@ def test_columns_of_the_file():
         "synset_names": ["entity", "artifact", "tool", "food", "cutter", "bun", "knife"],
         "synset_hypernyms": ["", "0", "1", "0", "2", "3", "4 1"],
         "synset_hyponym_counts": ["7", "4", "3", "2", "2", "1", "1"],
-        "lemmas": ["entity", "artifact", "tool", "food", "cutter", "bun", "roll", "knife", "flowerpot", "xray"],
-        "lemma_kinds": ["a1", "c1", "c1", "f1", "c1", "c1 f2", "f2", "c1", "c1", "c3"],
-        "lemma_synsets": ["0", "1", "2", "3", "4", "6 5", "5", "6", "6", "6"],
-        "lemma_is_one_word": ["1111111100"],
+        "lemmas": ["artifact", "bun", "cutter", "entity", "flowerpot", "food", "knife", "roll", "tool", "xray"],
+        "lemma_kinds": ["c1", "c1 f2", "c1", "a1", "c1", "f1", "c1", "f2", "c1", "c3"],
+        "lemma_synsets": ["1", "6 5", "4", "0", "6", "3", "6", "5", "2", "6"],
+        "lemma_is_one_word": ["1111011110"],
     }
 
 
 def test_a_file_round_trips():
     columns = build_columns(["red", "wooden"], SYNSETS)
     text = format_taxonomy(columns)
-    assert text.startswith(b"usd2kg noun taxonomy, format 2\n[adjectives]\nred\twooden\n[domains]\ntop\t")
+    assert text.startswith(b"usd2kg noun taxonomy, format 3\n[adjectives]\nred\twooden\n[domains]\ntop\t")
     assert parse_taxonomy(text) == columns
 
 
 @pytest.mark.parametrize(
-    "text", [b"", b"usd2kg noun taxonomy, format 1\n", b"usd2kg noun taxonomy, format 2\n[lemmas]\n"]
+    "text", [b"", b"usd2kg noun taxonomy, format 2\n", b"usd2kg noun taxonomy, format 3\n[lemmas]\n"]
 )
 def test_rejects_a_file_of_another_format(text):
-    with pytest.raises(ValueError, match="expected 'usd2kg noun taxonomy, format 2' and its sections"):
+    with pytest.raises(ValueError, match="expected 'usd2kg noun taxonomy, format 3' and its sections"):
         parse_taxonomy(text)
 
 
@@ -73,6 +73,18 @@ def test_an_unknown_lemma_has_no_senses():
     assert TINY.parse_kinds("") == []
     assert "buns" not in TINY
     assert "bun" in TINY
+
+
+@pytest.mark.parametrize("lemma", ["", "bu", "bu\U0010ffff", "\udc80", "zz"])
+def test_a_prefix_of_a_lemma_is_unknown(lemma: str):
+    assert lemma not in TINY
+    assert lemma not in load_taxonomy()
+
+
+def test_every_lemma_of_the_package_is_found():
+    taxonomy = load_taxonomy()
+    assert list(taxonomy.lemmas) == sorted(set(taxonomy.lemmas))
+    assert all(lemma in taxonomy for lemma in taxonomy.lemmas)
 
 
 def test_compounds_are_looked_up_without_space_or_hyphen():

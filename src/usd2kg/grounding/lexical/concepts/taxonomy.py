@@ -2,7 +2,9 @@
 
 import gzip
 import re
+import sys
 from array import array
+from bisect import bisect_left
 from collections.abc import Callable, Collection, Iterator
 from functools import cached_property, lru_cache
 from typing import NamedTuple
@@ -18,6 +20,8 @@ from usd2kg.ontology.namespaces import CONCEPT, WORDNET
 __all__ = ["Sense", "Taxonomy", "load_taxonomy"]
 
 _OFFSET_DIGITS = 8
+_PREFIX_LETTERS = 2
+_LAST_LETTER = chr(sys.maxunicode)
 
 # Morphy's detachment rules for nouns (morphy(7WN)).
 _PLURALS = (("ches", "ch"), ("shes", "sh"), ("sses", "ss"), ("xes", "x"), ("zes", "z"), ("ies", "y"), ("men", "man"))
@@ -47,11 +51,36 @@ class _Cells:
     def __getitem__(self, at: int) -> str:
         return self._column[self._starts[at] : self._starts[at + 1] - 1].decode()
 
+    def between(self, start: int, end: int) -> list[str]:
+        """Return the cells from `start` up to `end`."""
+        return self._column[self._starts[start] : self._starts[end] - 1].decode().split("\t") if start < end else []
+
     def __len__(self) -> int:
         return len(self._starts) - 1
 
     def __iter__(self) -> Iterator[str]:
         return iter(self._column.decode().split("\t"))
+
+
+class _Lemmas(_Cells):
+    """The sorted lemmas, indexed by their first letters on demand: a scene needs a few dozen of 124,000."""
+
+    def __init__(self, column: bytes) -> None:
+        super().__init__(column)
+        self._row_by_prefix: dict[str, dict[str, int]] = {}
+
+    def find(self, lemma: str) -> int | None:
+        """Return the row of a lemma; None if it is unknown."""
+        prefix = lemma[:_PREFIX_LETTERS]
+        rows = self._row_by_prefix.get(prefix)
+        if rows is None:
+            start, end = bisect_left(self, prefix), bisect_left(self, prefix + _LAST_LETTER)
+            rows = dict(zip(self.between(start, end), range(start, end), strict=True))
+            self._row_by_prefix[prefix] = rows
+        return rows.get(lemma)
+
+    def __contains__(self, lemma: str) -> bool:
+        return self.find(lemma) is not None
 
 
 class Taxonomy:
@@ -79,8 +108,7 @@ class Taxonomy:
         self._above_texts = _Cells(columns.synset_hypernyms)
         self._names = _Cells(columns.synset_names)
         self._sizes = _Cells(columns.synset_hyponym_counts)
-        lemmas = columns.lemmas.decode().split("\t")
-        self._row_of_lemma = dict(zip(lemmas, range(len(lemmas)), strict=True))
+        self._lemmas = _Lemmas(columns.lemmas)
         self._kinds = _Cells(columns.lemma_kinds)
         self._synsets = _Cells(columns.lemma_synsets)
         self._is_one_word = columns.lemma_is_one_word.decode()
@@ -95,9 +123,10 @@ class Taxonomy:
         """Return the senses of a lemma or joined compound (`flowerpot`), most frequent first; none if it is unknown."""
         found = self._senses.get(lemma)
         if found is None:
-            if lemma not in self._row_of_lemma:
+            row = self._lemmas.find(lemma)
+            if row is None:
                 return ()
-            synsets, kinds = self._synsets[self._row_of_lemma[lemma]].split(), self.parse_kinds(self.kinds(lemma))
+            synsets, kinds = self._synsets[row].split(), self.parse_kinds(self._kinds[row])
             pairs = zip(synsets, kinds, strict=True)
             found = self._senses[lemma] = tuple(Sense(int(synset), *kind) for synset, kind in pairs)
         return found
@@ -107,8 +136,8 @@ class Taxonomy:
 
         Many lemmas share one text, which callers use as a cache key.
         """
-        at = self._row_of_lemma.get(lemma)
-        return "" if at is None else self._kinds[at]
+        row = self._lemmas.find(lemma)
+        return "" if row is None else self._kinds[row]
 
     def parse_kinds(self, kinds: str) -> list[tuple[int, str]]:
         """Return (rank, domain) of each sense in a text from `kinds`, most frequent first."""
@@ -116,23 +145,20 @@ class Taxonomy:
 
     @property
     def lemmas(self) -> Collection[str]:
-        """All lemmas."""
-        return self._row_of_lemma.keys()
+        """All lemmas, sorted."""
+        return list(self._lemmas)
 
     def __contains__(self, lemma: str) -> bool:
-        return lemma in self._row_of_lemma
+        return lemma in self._lemmas
 
     def is_phrase(self, lemma: str) -> bool:
         """Return whether a lemma is a compound of several written words: `ctscanner` is “CT scanner”."""
-        return lemma in self._row_of_lemma and self._is_one_word[self._row_of_lemma[lemma]] == "0"
+        row = self._lemmas.find(lemma)
+        return row is not None and self._is_one_word[row] == "0"
 
     def phrases(self) -> list[str]:
         """Return the compounds of several written words, joined."""
-        return [
-            lemma
-            for lemma, is_one_word in zip(self._row_of_lemma, self._is_one_word, strict=True)
-            if is_one_word == "0"
-        ]
+        return [lemma for lemma, is_one_word in zip(self._lemmas, self._is_one_word, strict=True) if is_one_word == "0"]
 
     def name(self, synset: int) -> str:
         """Return the first lemma of a synset, with its spaces."""
@@ -234,11 +260,11 @@ class Taxonomy:
         >>> load_taxonomy().singular("knives")
         'knife'
         """
-        return word if word in self._row_of_lemma or len(word) < 4 else self._singular(word)
+        return word if word in self._lemmas or len(word) < 4 else self._singular(word)
 
     def _find_singular(self, word: str) -> str:
         for ending, singular in (*_PLURALS, *_MORE_PLURALS):
-            if word.endswith(ending) and (stem := word[: -len(ending)] + singular) in self._row_of_lemma:
+            if word.endswith(ending) and (stem := word[: -len(ending)] + singular) in self._lemmas:
                 return stem
         return word
 
@@ -248,7 +274,7 @@ class Taxonomy:
         return sorted(
             [
                 lemma
-                for lemma, kinds, is_one_word in zip(self._row_of_lemma, self._kinds, self._is_one_word, strict=True)
+                for lemma, kinds, is_one_word in zip(self._lemmas, self._kinds, self._is_one_word, strict=True)
                 if is_one_word == "1" and lemma.isalpha() and not others(kinds)
             ]
         )

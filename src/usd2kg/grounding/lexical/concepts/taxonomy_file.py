@@ -2,14 +2,14 @@
 
 The file is UTF-8 text, compressed with gzip. Its first line is `FORMAT`. For each field of `TaxonomyColumns` two lines
 follow: the name of the field in brackets, and its cells, separated by tabs. Cells of the `synset_` columns are in the
-order of synset numbers, from 0; cells of the `lemma_` columns are in one order, which is not sorted.
+order of synset numbers, from 0; cells of the `lemma_` columns are in the order of the sorted lemmas.
 """
 
 from typing import NamedTuple
 
 __all__ = ["FORMAT", "TaxonomyColumns", "format_taxonomy", "parse_taxonomy"]
 
-FORMAT = "usd2kg noun taxonomy, format 2"
+FORMAT = "usd2kg noun taxonomy, format 3"
 
 
 class TaxonomyColumns(NamedTuple):
@@ -26,7 +26,7 @@ class TaxonomyColumns(NamedTuple):
     synset_hyponym_counts: bytes
     """The number of synsets below a synset, itself included."""
     lemmas: bytes
-    """Lower case, compounds without spaces and hyphens."""
+    """Lower case, compounds without spaces and hyphens; sorted, so that one is found without parsing the others."""
     lemma_kinds: bytes
     """Domain and rank of each sense, the most frequent sense first, separated by spaces: `c1 f2`."""
     lemma_synsets: bytes
