@@ -2,7 +2,7 @@
 
 import re
 
-from usd2kg.grounding.lexical.concepts.home_names import home_names
+from usd2kg.grounding.lexical.concepts.home_names import home_names, home_words
 from usd2kg.knowledge import read_rows
 from usd2kg.ontology import TBox
 from usd2kg.words import split_identifier
@@ -65,3 +65,16 @@ def test_abbreviations_are_sorted_and_shorten_one_lower_case_word():
         assert row["word"] == row["word"].lower()
         assert row["short"][0] in row["word"]
         assert row["short"] != row["word"]
+
+
+def test_the_words_of_the_names_are_kept_between_commands(tmp_path, monkeypatch):
+    monkeypatch.setenv("USD2KG_TABLE_CACHE", str(tmp_path))
+    home_words.cache_clear()
+    computed = home_words()
+    home_words.cache_clear()
+    monkeypatch.setattr("usd2kg.grounding.lexical.concepts.home_names._count_words", None)
+    assert home_words() == computed
+    assert computed.last_counts["table"] > 0
+    assert computed.before_counts["coffee"] > 0
+    assert {"diningtable", "table"} & computed.compounds == {"diningtable"}
+    assert "tv" in computed.short_names

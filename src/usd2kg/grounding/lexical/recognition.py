@@ -2,16 +2,14 @@
 
 import json
 import math
-from collections import Counter
 from collections.abc import Iterable
 from functools import lru_cache, partial
-from itertools import chain
 from operator import mul
 from typing import NamedTuple
 
 from usd2kg.grounding.context.views import ObjectView
 from usd2kg.grounding.lexical.alignment.lexicon import Lexicon
-from usd2kg.grounding.lexical.concepts.home_names import home_names, short_home_names
+from usd2kg.grounding.lexical.concepts.home_names import home_words
 from usd2kg.grounding.lexical.concepts.senses import sense_weight
 from usd2kg.grounding.lexical.concepts.sizes import Size, round_size
 from usd2kg.grounding.lexical.concepts.taxonomy import Taxonomy, load_taxonomy
@@ -77,8 +75,7 @@ class ConceptRecognizer:
 
     def __init__(self, taxonomy: Taxonomy) -> None:
         # Not all words of compound names are nouns of the taxonomy: the night of a nightstand.
-        words = Counter(" ".join(chain.from_iterable(home_names().values())).lower().split())
-        self._reader = NameReader(Lexicon({}, {}, words, None, frozenset(), frozenset(), {}), taxonomy)
+        self._reader = NameReader(Lexicon({}, {}, home_words().counts, None, frozenset(), frozenset(), {}), taxonomy)
         self._matcher = PhraseMatcher(_SenseMatcher(taxonomy, self._reader), taxonomy, self._reader)
         # Scenes cache results by the identity of the function, and each access to a method creates a new object.
         self._find_prefix = partial(shared_prefix, names_object=self._reader.names_known_noun)
@@ -141,7 +138,7 @@ class _SenseMatcher:
         for start in range(len(before) if self._reader.kinds.is_modifier(last) else len(words)):
             key = "".join(before[start:]) + singular
             matches = self._match_noun(key, start < len(before))
-            if not matches and key in _home_compounds():
+            if not matches and key in home_words().compounds:
                 matches = self._match_compound_head(singular)
             if matches:
                 return HeadMatches(words[start:], matches)
@@ -169,20 +166,13 @@ class _SenseMatcher:
         return above is not None and any(up == target for up, _ in self._taxonomy.walk_up(above))
 
     def _senses_of(self, noun: str, is_compound: bool) -> tuple[Match, ...]:
-        if len(noun) < READING.min_noun_letters and noun not in short_home_names():
+        if len(noun) < READING.min_noun_letters and noun not in home_words().short_names:
             return ()
         score = MATCHING.compound_score if is_compound else MATCHING.noun_score
         return tuple(
             Match(self._taxonomy.concept_iri(sense.synset), score * sense_weight(sense), partial(_explain, noun))
             for sense in self._taxonomy.senses(noun)
         )
-
-
-@lru_cache(maxsize=1)
-def _home_compounds() -> frozenset[str]:
-    """Return the compounds of the home vocabulary, joined."""
-    names = (name.lower().split() for name in chain.from_iterable(home_names().values()))
-    return frozenset("".join(name) for name in names if len(name) > 1)
 
 
 def _explain(noun: str) -> str:

@@ -6,7 +6,7 @@ from functools import cached_property, lru_cache, partial
 
 from usd2kg.grounding.lexical.alignment.lexicon import Lexicon
 from usd2kg.grounding.lexical.alignment.terms import AlignedClass, Term, TermKind
-from usd2kg.grounding.lexical.concepts.home_names import short_home_names
+from usd2kg.grounding.lexical.concepts.home_names import home_words
 from usd2kg.grounding.lexical.concepts.name_classifier import likely_classes, similar_name
 from usd2kg.grounding.lexical.concepts.senses import sense_weight, usual_sense
 from usd2kg.grounding.lexical.concepts.taxonomy import Taxonomy
@@ -259,7 +259,7 @@ class TermMatcher:
 
     def _match_hypernyms(self, key: str, is_compound: bool) -> Iterator[Match]:
         """Yield for each sense of a noun the class of its nearest aligned hypernym."""
-        if len(key) < READING.min_noun_letters and key not in short_home_names():
+        if len(key) < READING.min_noun_letters and key not in home_words().short_names:
             return
         usual = usual_sense(key, self._taxonomy)
         nearest = None if usual is None else self._nearest_class(usual.synset)

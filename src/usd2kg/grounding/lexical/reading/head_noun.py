@@ -6,13 +6,11 @@ A conditional logit over the words of the name (McFadden, 1974): the weight of a
 
 import json
 import math
-from collections import Counter
 from functools import lru_cache
-from itertools import chain
 from operator import mul
 from typing import NamedTuple
 
-from usd2kg.grounding.lexical.concepts.home_names import home_names
+from usd2kg.grounding.lexical.concepts.home_names import home_words
 from usd2kg.knowledge import read_text
 
 __all__ = ["HeadFeatures", "head_likelihood", "head_log_odds"]
@@ -67,15 +65,8 @@ def head_log_odds(word: str) -> float:
     >>> head_log_odds("frame") > 0 > head_log_odds("porcelain")
     True
     """
-    last, before = _counts()
-    return math.log((last[word] + 1) / (before[word] + 1))
-
-
-@lru_cache(maxsize=1)
-def _counts() -> tuple[Counter[str], Counter[str]]:
-    names = (name.lower().split() for found in home_names().values() for name in found)
-    compounds = [words for words in names if len(words) > 1]
-    return Counter(words.pop() for words in compounds), Counter(chain.from_iterable(compounds))
+    words = home_words()
+    return math.log((words.last_counts.get(word, 0) + 1) / (words.before_counts.get(word, 0) + 1))
 
 
 @lru_cache(maxsize=1)
