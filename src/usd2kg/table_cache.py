@@ -4,9 +4,10 @@ import hashlib
 import json
 import logging
 import os
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Iterator
 from contextlib import suppress
 from functools import lru_cache
+from itertools import chain
 from pathlib import Path
 from typing import Any, TypeVar
 
@@ -89,9 +90,18 @@ def open_table_cache(inputs: Iterable[str]) -> TableCache:
 @lru_cache(maxsize=1)
 def _program_state() -> tuple[str, ...]:
     package = Path(__file__).parent
-    found = (file for source in _SOURCES for file in sorted((package / source).rglob("*.*")))
-    states = ((file, file.stat()) for file in found if file.suffix != ".pyc")
-    return tuple(f"{file} {state.st_size} {state.st_mtime_ns}" for file, state in states)
+    return tuple(sorted(chain.from_iterable(_file_states(os.fspath(package / source)) for source in _SOURCES)))
+
+
+def _file_states(folder: str) -> Iterator[str]:
+    # With os.scandir, since pathlib takes four times as long for the few hundred files.
+    with os.scandir(folder) as entries:
+        for entry in entries:
+            if entry.is_dir():
+                yield from _file_states(entry.path)
+            elif not entry.name.endswith(".pyc"):
+                state = entry.stat()
+                yield f"{entry.path} {state.st_size} {state.st_mtime_ns}"
 
 
 def _remove_old(folder: Path) -> None:

@@ -6,7 +6,7 @@ from functools import lru_cache
 from pathlib import Path, PurePosixPath
 from typing import Any, NamedTuple
 
-from pxr import Gf, Sdf, Usd, UsdGeom, UsdPhysics, Vt
+from pxr import Gf, Sdf, Usd, UsdGeom, Vt
 
 from usd2kg.scene.bounds import BoxReader
 from usd2kg.scene.metadata import vector_of
@@ -118,7 +118,7 @@ def read_mass(records: list[PrimRecord], boxes: BoxReader, frame: StageFrame) ->
 def _mass(record: PrimRecord) -> float | None:
     if not record.has_mass:
         return None
-    mass = read_value(record.prim, UsdPhysics.Tokens.physicsMass, Usd.TimeCode.Default(), int, float)
+    mass = read_value(record.prim, "physics:mass", Usd.TimeCode.Default(), int, float)
     return float(f"{mass:.7g}") if mass and 0 < mass < math.inf else None
 
 
@@ -126,7 +126,7 @@ def _center(record: PrimRecord, boxes: BoxReader) -> Vector | None:
     if not record.has_mass:
         return None
     time = Usd.TimeCode.Default()
-    center = read_value(record.prim, UsdPhysics.Tokens.physicsCenterOfMass, time, Gf.Vec3f, Gf.Vec3d, Gf.Vec3h)
+    center = read_value(record.prim, "physics:centerOfMass", time, Gf.Vec3f, Gf.Vec3d, Gf.Vec3h)
     return boxes.read_point(record, center) if center is not None else None
 
 

@@ -15,7 +15,7 @@ from operator import attrgetter
 from pathlib import Path
 from typing import Any, NamedTuple
 
-from pxr import Sdf, Tf, Usd, UsdGeom, UsdPhysics, UsdUtils
+from pxr import Sdf, Tf, Usd, UsdGeom, UsdUtils
 
 from usd2kg.convert import (
     SCENE_ENDINGS,
@@ -303,7 +303,7 @@ def _read_frame(stage: Any, options: ReadOptions) -> tuple[StageFrame, list[Diag
     up_axis = options.up_axis or _metadata(stage, UsdGeom.Tokens.upAxis)
     if up_axis is not None and str(up_axis) not in {"Y", "Z"}:
         notes.append(Diagnostic("units", f"upAxis is {str(up_axis)!r}, expected Y or Z; Y is used", None, layer))
-    kilograms = _metadata(stage, UsdPhysics.Tokens.kilogramsPerUnit)
+    kilograms = _metadata(stage, "kilogramsPerUnit")
     has_kilograms = _is_unit(kilograms)
     if kilograms is not None and not has_kilograms:
         notes.append(_odd_unit("kilogramsPerUnit", kilograms, 1, layer))

@@ -8,7 +8,7 @@ and pruned. A prototype is traversed for its first instance only.
 from collections.abc import Mapping, Sequence
 from typing import Any, NamedTuple
 
-from pxr import Kind, Sdf, Tf, Usd, UsdGeom, UsdPhysics
+from pxr import Kind, Sdf, Tf, Usd, UsdGeom
 
 from usd2kg.scene.instancers import is_endless
 from usd2kg.scene.metadata import text_names
@@ -202,7 +202,7 @@ class _Outliner:
         if known is None:
             known = self.traits[type_name] = _TypeTraits(
                 reason=next((why for schema, why in _REASON_BY_SCHEMA if _is_a(prim, schema)), None),
-                is_joint=prim.IsA(UsdPhysics.Joint),
+                is_joint=_is_a(prim, "UsdPhysicsJoint"),
                 may_be_joint=type_name.endswith("Joint"),
                 is_imageable=prim.IsA(UsdGeom.Imageable),
                 is_gprim=prim.IsA(UsdGeom.Gprim),
