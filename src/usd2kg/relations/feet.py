@@ -8,6 +8,7 @@ from numpy.typing import NDArray
 
 from usd2kg.relations.settings import FEET
 from usd2kg.shapes.axis_rays import find_crossings
+from usd2kg.shapes.extent import extent_of
 from usd2kg.shapes.surface import Surface
 
 __all__ = ["Tops", "find_feet", "find_tops", "find_undersides", "grid_feet", "underside_at"]
@@ -40,7 +41,7 @@ def grid_feet(lower: Array, upper: Array) -> Array:
 
 def find_undersides(surfaces: Sequence[Surface]) -> list[Array]:
     """Return points (n, 3) on the whole underside of each surface, on a grid over its footprint."""
-    grids = [grid_feet(surface.lower.min(axis=0), surface.upper.max(axis=0)) for surface in surfaces]
+    grids = [grid_feet(*extent_of(surface.corners)) for surface in surfaces]
     lowest = np.split(underside_at(grids, surfaces), len(surfaces)) if surfaces else []
     return [
         np.column_stack([grid[:, :_UP], heights])[np.isfinite(heights)]
@@ -54,7 +55,7 @@ def find_feet(surfaces: Sequence[Surface], height: float) -> list[Array]:
     They are spread evenly: a grid where the underside is broad, corners of the surface for legs and round bottoms.
     """
     low = [_low_corners(surface, height) for surface in surfaces]
-    grids = [grid_feet(corners.min(axis=0), corners.max(axis=0)) for corners in low]
+    grids = [grid_feet(*extent_of(corners)) for corners in low]
     undersides = np.split(underside_at(grids, surfaces), len(surfaces)) if surfaces else []
     feet = []
     for corners, grid, underside in zip(low, grids, undersides, strict=True):
@@ -74,8 +75,8 @@ def _low_corners(surface: Surface, height: float) -> Array:
 
 def _spread(corners: Array) -> Array:
     """Return the lowest corner in each cell of a grid, so that a finely modelled leg does not outweigh the others."""
-    first = corners[:, :_UP].min(axis=0)
-    cell = max(float(np.ptp(corners[:, :_UP], axis=0).max()) / FEET.grid, _SAME_FACE)
+    first, last = (corner[:_UP] for corner in extent_of(corners))
+    cell = max(float((last - first).max()) / FEET.grid, _SAME_FACE)
     corners = corners[np.argsort(corners[:, _UP], kind="stable")]
     place = ((corners[:, :_UP] - first) // cell).astype(np.int64)
     _, kept = np.unique(place[:, 0] * (FEET.grid + 1) + place[:, 1], return_index=True)

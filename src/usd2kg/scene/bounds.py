@@ -14,6 +14,7 @@ from usd2kg.scene.outline import PrimRecord
 from usd2kg.scene.settings import MAX_COORDINATE, SOLIDS
 from usd2kg.scene.solids import ROUND_SOLIDS, solid_surface
 from usd2kg.scene.stage import UNREADABLE, read_value
+from usd2kg.shapes.extent import extent_of
 
 __all__ = ["BoxReader", "is_measurable", "pose_of", "to_metres", "union"]
 
@@ -134,10 +135,12 @@ class BoxReader:
         return self._box_around(_points_of(prim, self.time) @ matrix[:3, :3] + matrix[3, :3])
 
     def _box_around(self, world: _Matrix) -> Box | None:
-        found = world[_is_near(world).all(axis=1)]
+        is_near = _is_near(world)
+        found = world if is_near.all() else world[is_near.all(axis=1)]
         if len(found) < min(len(world), _MIN_POINTS) or not len(found):
             return None
-        return _to_box(found.min(axis=0).tolist(), found.max(axis=0).tolist(), self._frame)
+        lower, upper = extent_of(found)
+        return _to_box(lower.tolist(), upper.tolist(), self._frame)
 
     def _box(self, cache: Any, record: PrimRecord) -> Box | None:
         if record.path in self._endless:

@@ -158,7 +158,10 @@ def connected_areas(kinds: Indices) -> Indices:
     root = _joined(int(run.max()) + 1, one[is_new], other[is_new])
     areas = np.where(kinds >= 0, root[run], -1)
     known = areas >= 0
-    areas[known] = np.unique(areas[known], return_inverse=True)[1].ravel()
+    # Numbers without gaps.
+    is_used = np.zeros(len(root), np.bool_)
+    is_used[areas[known]] = True
+    areas[known] = (np.cumsum(is_used) - 1)[areas[known]]
     return np.asarray(areas, np.int64)
 
 

@@ -8,6 +8,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from usd2kg.shapes.extent import extent_of
 from usd2kg.shapes.settings import SHELL
 from usd2kg.shapes.surface import Surface
 
@@ -39,8 +40,8 @@ def shell_boxes(surface: Surface) -> list[Corners]:
     where their common box is hardly larger.
     """
     corners = surface.corners
-    extent = np.ptp(corners, axis=(0, 1))
-    cell = max(float(extent.max()) / SHELL.cells, SHELL.min_cell)
+    lower, upper = extent_of(corners)
+    cell = max(float((upper - lower).max()) / SHELL.cells, SHELL.min_cell)
     while True:
         cells = _sample_cells(corners, cell)
         blocks = min((list(_blocks(cells.is_met, order)) for order in permutations(range(3))), key=len)
@@ -55,8 +56,8 @@ def shell_boxes(surface: Surface) -> list[Corners]:
 
 
 def _sample_cells(corners: Array, cell: float) -> _Cells:
-    start = corners.min(axis=(0, 1))
-    shape = (((corners.max(axis=(0, 1)) - start) / cell + _SHIFT).astype(np.int64) + 1).tolist()
+    start, end = extent_of(corners)
+    shape = (((end - start) / cell + _SHIFT).astype(np.int64) + 1).tolist()
     lower, upper = np.full((3, math.prod(shape)), np.inf), np.full((3, math.prod(shape)), -np.inf)
     # Two samples per cell leave no hole where a triangle crosses it obliquely.
     for points in _samples(corners, cell / 2):

@@ -7,6 +7,8 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from usd2kg.shapes.extent import extent_of
+
 __all__ = ["Surface", "SurfaceCache", "SurfacePiece", "is_box", "turned_outward"]
 
 Array = NDArray[np.float64]
@@ -99,7 +101,8 @@ class Surface:
         corners = self.corners
         centred = corners - corners.mean(axis=(0, 1))
         volume = float(np.einsum("ij,ij->", centred[:, 0], np.cross(centred[:, 1], centred[:, 2]))) / 6
-        extent = np.ptp(corners, axis=(0, 1))
+        lower, upper = extent_of(corners)
+        extent = upper - lower
         # A flat box has a volume of 0; its thickness is that of a modelling error.
         least = _SHEET_SHARE * float(np.sort(extent)[1:].prod() * extent.max())
         return float(np.sign(volume)) if abs(volume) > least else 0.0
@@ -125,7 +128,7 @@ def is_box(corners: Array) -> bool:
     """Return whether triangles (m, 3, 3) are the six faces of an axis-aligned box, which its corners fully describe."""
     if not 0 < len(corners) <= _MAX_BOX_POINTS:
         return False
-    low, high = corners.min(axis=(0, 1)), corners.max(axis=(0, 1))
+    low, high = extent_of(corners)
     size = high - low
     slack = _BOX_TOLERANCE * size.max()
     is_at_end = (np.abs(corners - low) <= slack) | (np.abs(corners - high) <= slack)
