@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import NamedTuple
 
 from usd2kg.grounding.settings import BUILT_IN_CHOICE
-from usd2kg.knowledge import read_rows
+from usd2kg.knowledge import read_cells
 from usd2kg.ontology import PLACES_IRI, OntologyNote, TBox, load_home_tbox, load_places_tbox
 from usd2kg.scene import Scene
 from usd2kg.words import words_of
@@ -89,7 +89,7 @@ def _longest_noun(words: tuple[str, ...]) -> str | None:
 def _nouns() -> Mapping[str, bool]:
     """Return noun → whether homes have such things."""
     nouns = {name: True for cls in load_home_tbox().classes for name in (cls.label, *cls.alt_labels)}
-    nouns.update((row["noun"], row["in_homes"] == "yes") for row in read_rows("place_nouns.csv"))
+    nouns.update((noun, in_homes == "yes") for noun, in_homes in read_cells("place_nouns.csv", "noun", "in_homes"))
     return nouns
 
 

@@ -6,7 +6,7 @@ from functools import lru_cache
 from itertools import chain
 from typing import Any, NamedTuple
 
-from usd2kg.knowledge import read_rows
+from usd2kg.knowledge import read_cells
 from usd2kg.languages.inflection import Entry, Form, compound_forms, fold, word_forms
 from usd2kg.languages.settings import COMPOUNDS
 from usd2kg.table_cache import open_table_cache
@@ -128,8 +128,10 @@ def _keep_cheapest(forms: dict[str, Form], found: Iterable[tuple[str, Form]]) ->
 def load_lexicons() -> dict[str, Glossary]:
     """Return language → lexicon, in the order of the vocabulary; read once. The spellings are kept between commands."""
     entries = [
-        Entry(row["language"], row["word"], tuple(row["english"].split()), row["homograph"] == "yes", row["role"])
-        for row in read_rows("glosses.csv")
+        Entry(language, word, tuple(english.split()), homograph == "yes", role)
+        for language, word, english, homograph, role in read_cells(
+            "glosses.csv", "language", "word", "english", "homograph", "role"
+        )
     ]
     codes = open_table_cache(()).get("word-forms", _checked, lambda: _encode_forms(entries), lambda table: table)
     lexicons = {

@@ -78,10 +78,11 @@ class ObjectGrounder:
 
     def _similar_members(self) -> SimilarMembers | None:
         """Return the search for similar terms; None without lists of a model, since labels alone do not help."""
-        terms = [term for term in self._lexicon.terms.values() if term.class_iri in self._tbox.by_iri]
+        terms = self._lexicon.terms.values()
         if all(term.kind is not TermKind.MODEL for term in terms):
             return None
-        return SimilarMembers(terms, self._taxonomy, self._tbox)
+        known = [term for term in terms if term.class_iri in self._tbox.by_iri]
+        return SimilarMembers(known, self._taxonomy, self._tbox)
 
     def format_alignment(self, others: Iterable[AlignmentRow] = ()) -> str:
         """Return the alignment of the classes with concepts and terms, and other rows, as SSSOM/TSV."""

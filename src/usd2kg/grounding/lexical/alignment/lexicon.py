@@ -27,7 +27,15 @@ from usd2kg.grounding.lexical.settings import ALIGNMENT
 from usd2kg.knowledge import word_set
 from usd2kg.ontology import ClassIRI, OntologyClass, TBox
 
-__all__ = ["CategoryMember", "Lexicon", "build_lexicon", "home_classes_of", "make_lexicon", "physical_classes"]
+__all__ = [
+    "CategoryMember",
+    "Lexicon",
+    "build_lexicon",
+    "general_classes_of",
+    "home_classes_of",
+    "make_lexicon",
+    "physical_classes",
+]
 
 _NATURAL_DOMAINS = frozenset(["animal", "object", "person", "plant"])
 """WordNet domains of natural objects."""
@@ -110,10 +118,15 @@ def make_lexicon(
         sense_classes=sense_classes,
         vocabulary=Counter(" ".join(term.text for term in terms.values()).split()),
         default_class=default_class,
-        general_classes=frozenset([*tbox.roots, *filter(None, [default_class])]),
+        general_classes=general_classes_of(tbox, default_class),
         home_classes=home_classes,
         category_members={synset: sorted(members) for synset, members in category_members.items()},
     )
+
+
+def general_classes_of(tbox: TBox, default_class: ClassIRI | None) -> frozenset[ClassIRI]:
+    """Return the uninformative classes of a TBox: its roots, and the default class if there is one."""
+    return frozenset([*tbox.roots, *filter(None, [default_class])])
 
 
 def home_classes_of(tbox: TBox, synonyms: Mapping[ClassIRI, tuple[str, ...]]) -> frozenset[ClassIRI]:

@@ -1,11 +1,10 @@
 """A lexicon as JSON, so that a later process need not build it."""
 
 from collections.abc import Iterable, Iterator, Mapping
-from dataclasses import replace
 from functools import partial
 from typing import Any, TypeVar
 
-from usd2kg.grounding.lexical.alignment.lexicon import CategoryMember, Lexicon, make_lexicon
+from usd2kg.grounding.lexical.alignment.lexicon import CategoryMember, Lexicon, general_classes_of
 from usd2kg.grounding.lexical.alignment.terms import AlignedClass, Term, TermKind
 from usd2kg.ontology import TBox
 
@@ -15,6 +14,9 @@ __all__ = ["lexicon_as_json", "lexicon_of_json"]
 def lexicon_as_json(lexicon: Lexicon) -> dict[str, Any]:
     """Return a lexicon as values that `json` writes; classes are numbers, columns are parallel lists."""
     terms, senses = lexicon.terms.values(), lexicon.sense_classes
+    # Many synsets have one class with one weight.
+    aligned = list(dict.fromkeys(senses.values()))
+    places = {one: place for place, one in enumerate(aligned)}
     members = [
         (synset, *one.aligned, one.synset_count) for synset, all_ in lexicon.category_members.items() for one in all_
     ]
@@ -29,9 +31,11 @@ def lexicon_as_json(lexicon: Lexicon) -> dict[str, Any]:
         },
         "senses": {
             "synsets": list(senses),
-            "classes": [numbers[aligned.class_iri] for aligned in senses.values()],
-            "weights": [aligned.weight for aligned in senses.values()],
+            "aligned": [places[one] for one in senses.values()],
+            "classes": [numbers[one.class_iri] for one in aligned],
+            "weights": [one.weight for one in aligned],
         },
+        "vocabulary": dict(lexicon.vocabulary),
         "members": [(synset, numbers[iri], weight, count) for synset, iri, weight, count in members],
         "default": lexicon.default_class,
         "home": sorted(lexicon.home_classes),
@@ -55,17 +59,15 @@ def lexicon_of_json(found: Mapping[str, Any], tbox: TBox) -> Lexicon:
     for synset, number, weight, count in found["members"]:
         members.setdefault(synset, []).append(CategoryMember(AlignedClass(classes[number], weight), count))
     columns = (map(classes.__getitem__, terms["classes"]), terms["texts"], map(kinds.__getitem__, terms["kinds"]))
-    aligned = _records(AlignedClass, map(classes.__getitem__, senses["classes"]), senses["weights"])
-    lexicon = make_lexicon(
-        tbox,
-        dict(zip(terms["keys"], _records(Term, *columns), strict=True)),
-        dict(zip(senses["synsets"], aligned, strict=True)),
-        members,
-        found["default"],
-        frozenset(found["home"]),
-    )
-    return replace(
-        lexicon,
+    aligned = list(_records(AlignedClass, map(classes.__getitem__, senses["classes"]), senses["weights"]))
+    return Lexicon(
+        terms=dict(zip(terms["keys"], _records(Term, *columns), strict=True)),
+        sense_classes=dict(zip(senses["synsets"], map(aligned.__getitem__, senses["aligned"]), strict=True)),
+        vocabulary=dict(found["vocabulary"]),
+        default_class=found["default"],
+        general_classes=general_classes_of(tbox, found["default"]),
+        home_classes=frozenset(found["home"]),
+        category_members={synset: sorted(some) for synset, some in members.items()},
         curated_synsets=frozenset(found["curated"]),
         listed_synsets=frozenset(found["listed"]),
         excluded_classes={
