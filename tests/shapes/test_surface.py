@@ -8,7 +8,7 @@ UNIT = ((0, 0, 0), (1, 1, 1))
 
 
 def test_a_box_is_a_box():
-    assert is_box(boxes(UNIT).corners)
+    assert is_box(boxes(UNIT))
 
 
 @pytest.mark.parametrize(
@@ -24,7 +24,7 @@ def test_a_box_is_a_box():
     ids=["open", "walls", "table", "cylinder", "triangle"],
 )
 def test_others_are_not(surface: Surface):
-    assert not is_box(surface.corners)
+    assert not is_box(surface)
 
 
 def test_a_matrix_moves_and_scales():

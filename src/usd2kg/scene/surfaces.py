@@ -108,7 +108,7 @@ class SurfaceReader:
         if count > min(SURFACES.max_points, self._points_left):
             return None
         surface = Surface(tuple(pieces))
-        if len(pieces) == 1 and is_box(surface.corners):
+        if len(pieces) == 1 and is_box(surface):
             return None
         if len(pieces) > 1 and not any(record.twin or record.is_instance for record in gprims):
             surface = Surface((_joined(pieces),))

@@ -101,13 +101,16 @@ def _spans(
         upper: (m,)
         owner: (m,), the surface of each triangle.
     """
-    # Sorted with the lines, a lower end comes before and an upper end after the lines at the same coordinate.
-    kind = np.repeat([1, 0, 2], [len(at), len(lower), len(upper)])
-    ranks = np.lexsort((kind, np.concatenate([at, lower, upper]), np.concatenate([line_owner, owner, owner])))
-    is_line = ranks < len(at)
-    before = np.empty(len(ranks), np.int64)
-    before[ranks] = np.cumsum(is_line)
-    return ranks[is_line], before[len(at) : len(at) + len(lower)], before[len(at) + len(lower) :]
+    order = np.lexsort((at, line_owner))
+    lines = _keys(line_owner[order], at[order])
+    return order, lines.searchsorted(_keys(owner, lower)), lines.searchsorted(_keys(owner, upper), side="right")
+
+
+def _keys(owner: Indices, at: Array) -> NDArray[np.complex128]:
+    """Return keys that sort by owner, then by coordinate, as numpy sorts complex numbers by their real part first."""
+    keys = np.empty(len(owner), np.complex128)
+    keys.real, keys.imag = owner, at
+    return keys
 
 
 class _Triangles(NamedTuple):

@@ -109,14 +109,15 @@ class Surface:
 
 
 def _to_world(pieces: tuple[SurfacePiece, ...]) -> _WorldTriangles:
-    corners = np.concatenate([np.zeros((0, 3, 3)), *map(_corners, pieces)])
+    corners = _corners(pieces[0]) if len(pieces) == 1 else np.concatenate([np.zeros((0, 3, 3)), *map(_corners, pieces)])
     a, b, c = corners[:, 0], corners[:, 1], corners[:, 2]
     return _WorldTriangles(corners, np.minimum(np.minimum(a, b), c), np.maximum(np.maximum(a, b), c))
 
 
 def _corners(piece: SurfacePiece) -> Array:
     world = piece.points @ piece.matrix[:3, :3] + piece.matrix[3, :3]
-    return np.asarray(world[turned_outward(piece)], np.float64)
+    # Twice as fast as indexing.
+    return np.asarray(world.take(turned_outward(piece), axis=0), np.float64)
 
 
 def turned_outward(piece: SurfacePiece) -> NDArray[np.int32]:
@@ -124,10 +125,11 @@ def turned_outward(piece: SurfacePiece) -> NDArray[np.int32]:
     return piece.triangles[:, ::-1] if np.linalg.det(piece.matrix[:3, :3]) < 0 else piece.triangles
 
 
-def is_box(corners: Array) -> bool:
-    """Return whether triangles (m, 3, 3) are the six faces of an axis-aligned box, which its corners fully describe."""
-    if not 0 < len(corners) <= _MAX_BOX_POINTS:
+def is_box(surface: Surface) -> bool:
+    """Return whether triangles are the six faces of an axis-aligned box, which its corners fully describe."""
+    if not 0 < sum(len(piece.triangles) for piece in surface.pieces) <= _MAX_BOX_POINTS:
         return False
+    corners = surface.corners
     low, high = extent_of(corners)
     size = high - low
     slack = _BOX_TOLERANCE * size.max()
