@@ -64,7 +64,7 @@ def test_names_are_grounded_alike_by_the_tables_of_an_earlier_process(ontology: 
     first = ground_names(names, tbox)
     assert any(file.name.endswith("-lexicon.json") for file in tmp_path.iterdir())
     # Building again would fail.
-    monkeypatch.setattr("usd2kg.grounding.lexical.object_grounder.build_alignment", None)
+    monkeypatch.setattr("usd2kg.grounding.lexical.alignment.built_alignment.build_alignment", None)
     lexical._make_object_grounder.cache_clear()
     assert ground_names(names, tbox) == first
     lexical._make_object_grounder.cache_clear()

@@ -48,11 +48,13 @@ def make_grounder(
         raise GroundingError(f"grounder {name!r} takes no alignment; choose the grounder lexical to use {alignment}")
     # Imported on demand: the lexical grounder reads a noun taxonomy, others need optional dependencies.
     if name == "lexical":
-        from usd2kg.grounding.lexical.alignment.alignment_file import read_alignment_file  # noqa: PLC0415
         from usd2kg.grounding.lexical.grounder import LexicalGrounder  # noqa: PLC0415
 
-        found = read_alignment_file(alignment) if alignment is not None else None
-        return LexicalGrounder(abstains=abstains, alignment=found)
+        if alignment is None:
+            return LexicalGrounder(abstains=abstains)
+        from usd2kg.grounding.lexical.alignment.alignment_file import read_alignment_file  # noqa: PLC0415
+
+        return LexicalGrounder(abstains=abstains, alignment=read_alignment_file(alignment))
     if name == "dictionary":
         from usd2kg.grounding.baselines.dictionary import DictionaryGrounder  # noqa: PLC0415
 

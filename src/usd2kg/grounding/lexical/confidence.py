@@ -9,13 +9,12 @@ from collections.abc import Container, Iterable, Mapping
 from functools import lru_cache
 
 from usd2kg.grounding.lexical.class_posterior import ClassPosterior
-from usd2kg.grounding.lexical.concepts.home_names import home_names
 from usd2kg.grounding.lexical.evidence_combination import CONTEXT_GROUPS
 from usd2kg.grounding.lexical.scored_view import ScoredView
 from usd2kg.grounding.lexical.settings import CONFIDENCE
 from usd2kg.grounding.model import Prediction
 from usd2kg.knowledge import read_text
-from usd2kg.ontology import ClassIRI, TBox
+from usd2kg.ontology import ClassIRI, TBox, load_home_tbox
 
 __all__ = ["FEATURES", "calibrate", "features_of", "general_class_log_odds"]
 
@@ -94,7 +93,7 @@ def features_of(scored: ScoredView, tbox: TBox, general: Container[ClassIRI], lo
     iri = prediction.class_iri
     is_general = iri in general
     has_subclasses = iri is not None and bool(tbox.children[iri])
-    is_foreign = iri is not None and iri not in home_names()
+    is_foreign = iri is not None and iri not in load_home_tbox().by_iri
     is_by_context = not CONTEXT_GROUPS.isdisjoint(prediction.evidence)
     return {
         "intercept": 1.0,

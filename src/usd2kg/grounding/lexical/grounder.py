@@ -7,11 +7,10 @@ Where the name is not clear it adds the evidence of assets, documentation, parts
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from functools import lru_cache
+from typing import TYPE_CHECKING
 
 from usd2kg.garbage import paused_collection
 from usd2kg.grounding.context.views import ObjectView
-from usd2kg.grounding.lexical.alignment.alignment_file import AlignmentFile
-from usd2kg.grounding.lexical.alignment.alignment_rows import AlignmentRow
 from usd2kg.grounding.lexical.candidate_evidence import CandidateEvidence
 from usd2kg.grounding.lexical.class_choice import choose_superclass, reconcile_copies, superclass_confidence
 from usd2kg.grounding.lexical.concepts.home_names import home_names
@@ -21,6 +20,10 @@ from usd2kg.grounding.lexical.scored_view import ScoredView
 from usd2kg.grounding.model import Prediction, Status
 from usd2kg.ontology import ClassIRI, TBox
 from usd2kg.table_cache import NO_CACHE, open_table_cache
+
+if TYPE_CHECKING:
+    from usd2kg.grounding.lexical.alignment.alignment_file import AlignmentFile
+    from usd2kg.grounding.lexical.alignment.alignment_rows import AlignmentRow
 
 __all__ = ["LexicalGrounder"]
 
@@ -37,7 +40,7 @@ class LexicalGrounder:
         use_home_synonyms: bool = True,
         use_member_lists: bool = True,
         abstains: bool = False,
-        alignment: AlignmentFile | None = None,
+        alignment: "AlignmentFile | None" = None,
     ) -> None:
         """Create a grounder.
 
@@ -79,7 +82,7 @@ class LexicalGrounder:
                 calibrated = [_abstain(one, tbox) for one in calibrated]
             return reconcile_copies([view for _, view in views], calibrated, tbox)
 
-    def format_alignment(self, tbox: TBox, others: Iterable[AlignmentRow] = ()) -> str:
+    def format_alignment(self, tbox: TBox, others: "Iterable[AlignmentRow]" = ()) -> str:
         """Return the alignment of the classes with concepts and terms as SSSOM/TSV, to be edited.
 
         Args:
@@ -127,7 +130,7 @@ def _abstain(prediction: Prediction, tbox: TBox) -> Prediction:
 
 @lru_cache(maxsize=4)
 def _make_object_grounder(
-    tbox: TBox, use_home_synonyms: bool, use_member_lists: bool, alignment: AlignmentFile | None
+    tbox: TBox, use_home_synonyms: bool, use_member_lists: bool, alignment: "AlignmentFile | None"
 ) -> ObjectGrounder:
     """Return the grounder of a TBox; it has no state from scenes, so all scenes share it."""
     # An edited alignment may have problems to warn about.

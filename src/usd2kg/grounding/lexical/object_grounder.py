@@ -3,13 +3,10 @@
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import replace
 from functools import partial
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from usd2kg.grounding.context.views import ObjectView
-from usd2kg.grounding.lexical.alignment.alignment_file import AlignmentFile, format_alignment
-from usd2kg.grounding.lexical.alignment.alignment_rows import AlignmentRow
 from usd2kg.grounding.lexical.alignment.artificial_root import NO_CLASS, NO_CLASS_IRI, with_root
-from usd2kg.grounding.lexical.alignment.built_alignment import BuiltAlignment, build_alignment
 from usd2kg.grounding.lexical.alignment.lexicon import Lexicon
 from usd2kg.grounding.lexical.alignment.lexicon_json import lexicon_as_json, lexicon_of_json
 from usd2kg.grounding.lexical.alignment.terms import TermKind
@@ -30,6 +27,11 @@ from usd2kg.grounding.model import Candidate, Prediction, Status
 from usd2kg.ontology import ClassIRI, TBox
 from usd2kg.table_cache import NO_CACHE, TableCache
 
+if TYPE_CHECKING:
+    from usd2kg.grounding.lexical.alignment.alignment_file import AlignmentFile
+    from usd2kg.grounding.lexical.alignment.alignment_rows import AlignmentRow
+    from usd2kg.grounding.lexical.alignment.built_alignment import BuiltAlignment
+
 __all__ = ["ObjectGrounder"]
 
 _GROUNDER = "lexical"
@@ -42,7 +44,7 @@ class ObjectGrounder:
         self,
         tbox: TBox,
         synonyms: Callable[[], Mapping[ClassIRI, tuple[str, ...]]],
-        alignment: AlignmentFile | None = None,
+        alignment: "AlignmentFile | None" = None,
         *,
         use_member_lists: bool = True,
         tables: TableCache = NO_CACHE,
@@ -84,8 +86,10 @@ class ObjectGrounder:
         known = [term for term in terms if term.class_iri in self._tbox.by_iri]
         return SimilarMembers(known, self._taxonomy, self._tbox)
 
-    def format_alignment(self, others: Iterable[AlignmentRow] = ()) -> str:
+    def format_alignment(self, others: "Iterable[AlignmentRow]" = ()) -> str:
         """Return the alignment of the classes with concepts and terms, and other rows, as SSSOM/TSV."""
+        from usd2kg.grounding.lexical.alignment.alignment_file import format_alignment  # noqa: PLC0415
+
         built = self._build()
         return format_alignment(built.tbox, built.lexicon, self._taxonomy, [*built.rows, *others])
 
@@ -189,16 +193,19 @@ def _build(
     tbox: TBox,
     taxonomy: Taxonomy,
     synonyms: Callable[[], Mapping[ClassIRI, tuple[str, ...]]],
-    alignment: AlignmentFile | None,
+    alignment: "AlignmentFile | None",
     *,
     use_lists: bool,
-) -> BuiltAlignment:
+) -> "BuiltAlignment":
+    # Imported here, since most commands read a lexicon that is already built.
+    from usd2kg.grounding.lexical.alignment.built_alignment import BuiltAlignment, build_alignment  # noqa: PLC0415
+
     if alignment is None:
         return build_alignment(tbox, taxonomy, synonyms(), use_lists=use_lists)
     return BuiltAlignment(*alignment.apply(tbox, taxonomy, synonyms(), use_lists=use_lists), ())
 
 
-def _edited(built: BuiltAlignment, taxonomy: Taxonomy) -> tuple[TBox, Lexicon]:
+def _edited(built: "BuiltAlignment", taxonomy: Taxonomy) -> tuple[TBox, Lexicon]:
     return built.tbox, built.edited(taxonomy)
 
 
