@@ -1,10 +1,20 @@
 """`usd2kg.knowledge` reads the package data."""
 
+import gzip
 from dataclasses import dataclass
 
 import pytest
 
-from usd2kg.knowledge import read_bytes, read_rows, read_settings, read_text, word_map, word_set
+from usd2kg.knowledge import (
+    read_bytes,
+    read_cells,
+    read_compressed,
+    read_rows,
+    read_settings,
+    read_text,
+    word_map,
+    word_set,
+)
 
 
 @dataclass(frozen=True)
@@ -16,6 +26,17 @@ class BootstrapSettings:
 def test_reads_a_file_as_text_bytes_and_rows():
     assert read_bytes("abbreviations.csv").decode() == read_text("abbreviations.csv")
     assert {"short": "btl", "word": "bottle"} in read_rows("abbreviations.csv")
+    assert ("bottle", "btl") in read_cells("abbreviations.csv", "word", "short")
+
+
+def test_rejects_an_unknown_column():
+    with pytest.raises(ValueError, match="is not in list"):
+        read_cells("abbreviations.csv", "word", "colour")
+
+
+@pytest.mark.parametrize("name", ["bert_vocab", "english_words", "frequencies", "wordnet", "wordnet_labels"])
+def test_decompresses_a_file(name: str):
+    assert read_compressed(f"{name}.txt.gz") == gzip.decompress(read_bytes(f"{name}.txt.gz"))
 
 
 def test_caches_word_sets():

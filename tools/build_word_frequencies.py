@@ -11,7 +11,6 @@ The first line of the result holds the words, the second an entry for each, such
 and the share of noun uses in percent or "-" for a head word of the home TBox that WordNet lacks.
 """
 
-import gzip
 import math
 import re
 import sys
@@ -22,7 +21,7 @@ from pathlib import Path
 from tools.data_files import gzip_bytes, write_data_file
 from usd2kg.grounding.lexical.concepts.taxonomy import load_taxonomy
 from usd2kg.grounding.lexical.reading.word_frequencies import UNKNOWN_FREQUENCY
-from usd2kg.knowledge import read_bytes
+from usd2kg.knowledge import read_compressed
 from usd2kg.ontology import load_home_tbox
 from usd2kg.words import words_of
 
@@ -92,7 +91,7 @@ def read_books(path: Path) -> dict[str, float]:
 
 def read_bert() -> dict[str, float]:
     """Return word → Zipf score from BERT's vocabulary, where the words in order of frequency begin with `the`."""
-    pieces = gzip.decompress(read_bytes("bert_vocab.txt.gz")).decode().splitlines()
+    pieces = read_compressed("bert_vocab.txt.gz").decode().splitlines()
     words = [piece for piece in pieces[pieces.index("the") :] if piece.isascii() and piece.isalpha()]
     return {word: zipf_of_rank(rank) for rank, word in enumerate(words, 1)}
 

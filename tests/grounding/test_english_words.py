@@ -1,11 +1,9 @@
 """Which runs of letters are English words."""
 
-import gzip
-
 import pytest
 
 from usd2kg.grounding.lexical.reading.english_words import SHORTEST_WORD, is_common_word, is_english_word
-from usd2kg.knowledge import read_bytes, read_text
+from usd2kg.knowledge import read_compressed, read_text
 
 
 @pytest.mark.parametrize("word", ["splash", "teaching", "exercise"])
@@ -32,7 +30,7 @@ def test_short_words_may_be_abbreviations(word: str):
 
 
 def test_the_dictionary_lists_each_word_once_and_no_common_one():
-    words = gzip.decompress(read_bytes("english_words.txt.gz")).decode("ascii").split("\n")
+    words = read_compressed("english_words.txt.gz").decode("ascii").split("\n")
     assert words.pop() == ""
     assert words == sorted(set(words))
     assert all(word.isalpha() and word.islower() and len(word) >= SHORTEST_WORD for word in words)

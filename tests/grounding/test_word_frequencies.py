@@ -1,6 +1,5 @@
 """Word frequencies, and the prior that a word names a thing in a scene."""
 
-import gzip
 import math
 from functools import cache
 
@@ -8,7 +7,7 @@ import pytest
 
 from usd2kg.grounding.lexical.concepts.taxonomy import load_taxonomy
 from usd2kg.grounding.lexical.reading.word_frequencies import UNKNOWN_FREQUENCY, log_prior
-from usd2kg.knowledge import read_bytes, read_text
+from usd2kg.knowledge import read_bytes, read_compressed, read_text
 
 COMMON_AND_RARE = """
     chair davenport, table tabor, cup chalice, lamp sconce, door wicket, window oriel, bottle demijohn, spoon skimmer,
@@ -20,7 +19,7 @@ COMMON_AND_RARE = """
 
 @cache
 def shipped_lines() -> list[list[str]]:
-    words, entries = gzip.decompress(read_bytes("frequencies.txt.gz")).decode("ascii").splitlines()
+    words, entries = read_compressed("frequencies.txt.gz").decode("ascii").splitlines()
     return [[word, *entry.split("/")] for word, entry in zip(words.split(), entries.split(), strict=True)]
 
 

@@ -1,12 +1,11 @@
 """WordPieceTokenizer against the published tokenizer of all-MiniLM-L6-v2."""
 
-import gzip
 import hashlib
 
 import pytest
 
 from usd2kg.grounding.baselines.embedding.wordpiece import WordPieceTokenizer, load_tokenizer, split_words
-from usd2kg.knowledge import read_bytes, read_text
+from usd2kg.knowledge import read_compressed, read_text
 
 # Written by the Rust tokenizer of PyPI's `tokenizers` with the published tokenizer.json of all-MiniLM-L6-v2,
 # padding off and truncation at 256.
@@ -109,7 +108,7 @@ def test_prefers_the_longest_piece_and_marks_unknown_words():
 
 
 def test_vocabulary_and_licence_are_those_of_bert():
-    vocabulary = gzip.decompress(read_bytes("bert_vocab.txt.gz"))
+    vocabulary = read_compressed("bert_vocab.txt.gz")
     digest = "07eced375cec144d27c900241f3e339478dec958f92fddbc551f295c992038a3"
     assert (vocabulary.count(b"\n"), hashlib.sha256(vocabulary).hexdigest()) == (30522, digest)
     licence = read_text("BERT-LICENSE.txt")

@@ -1,6 +1,5 @@
 """WordNet's nouns for physical objects: lemmas, their senses by frequency, and hypernyms."""
 
-import gzip
 import re
 import sys
 from array import array
@@ -14,7 +13,7 @@ import numpy as np
 import numpy.typing as npt
 
 from usd2kg.grounding.lexical.concepts.taxonomy_file import TaxonomyColumns, parse_taxonomy
-from usd2kg.knowledge import read_bytes
+from usd2kg.knowledge import read_compressed
 from usd2kg.ontology.namespaces import CONCEPT, WORDNET
 
 __all__ = ["Sense", "Taxonomy", "load_taxonomy"]
@@ -283,9 +282,9 @@ class Taxonomy:
 @lru_cache(maxsize=1)
 def load_taxonomy() -> Taxonomy:
     """Return the taxonomy of the package, read once."""
-    columns = parse_taxonomy(gzip.decompress(read_bytes("wordnet.txt.gz")))
+    columns = parse_taxonomy(read_compressed("wordnet.txt.gz"))
     return Taxonomy(
         columns,
-        lambda: gzip.decompress(read_bytes("wordnet_offsets.txt.gz")).decode(),
-        lambda: gzip.decompress(read_bytes("wordnet_labels.txt.gz")),
+        lambda: read_compressed("wordnet_offsets.txt.gz").decode(),
+        lambda: read_compressed("wordnet_labels.txt.gz"),
     )

@@ -1,10 +1,9 @@
 """English words of all parts of speech: a token in this list is neither misspelt nor abbreviated."""
 
-import gzip
 from functools import lru_cache
 
 from usd2kg.grounding.baselines.embedding.bert_vocabulary import load_pieces
-from usd2kg.knowledge import read_bytes
+from usd2kg.knowledge import read_compressed
 
 __all__ = ["SHORTEST_WORD", "is_common_word", "is_english_word"]
 
@@ -31,7 +30,7 @@ def _common_words() -> frozenset[str]:
 @lru_cache(maxsize=1)
 def _dictionary() -> bytes:
     """Return the words in alphabetical order, one a line; a set takes ten times the memory."""
-    return gzip.decompress(read_bytes("english_words.txt.gz"))
+    return read_compressed("english_words.txt.gz")
 
 
 def _has_line(lines: bytes, line: bytes) -> bool:

@@ -1,12 +1,11 @@
 """Prior of a word as the name of an object in a scene, from its frequency in English text."""
 
-import gzip
 import math
 from functools import lru_cache
 
 from usd2kg.grounding.lexical.concepts.taxonomy import load_taxonomy
 from usd2kg.grounding.lexical.settings import DOMAIN_FREQUENCY, WORD_PRIOR
-from usd2kg.knowledge import read_bytes
+from usd2kg.knowledge import read_compressed
 
 __all__ = ["UNKNOWN_FREQUENCY", "log_prior"]
 
@@ -29,8 +28,7 @@ def _load_entries() -> dict[str, str]:
     of speech together. It rests on ranks (books up to 2012, Wikipedia, novels), not on counts, so it errs by half a
     unit.
     """
-    data = read_bytes("frequencies.txt.gz")
-    words, entries = gzip.decompress(data).decode("ascii").splitlines()
+    words, entries = read_compressed("frequencies.txt.gz").decode("ascii").splitlines()
     return dict(zip(words.split(), entries.split(), strict=True))
 
 
