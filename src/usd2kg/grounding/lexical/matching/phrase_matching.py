@@ -6,7 +6,12 @@ from math import log
 from typing import NamedTuple
 
 from usd2kg.grounding.lexical.concepts.senses import usual_sense
-from usd2kg.grounding.lexical.concepts.sizes import Size, everyday_object_row, size_log_likelihood_ratio
+from usd2kg.grounding.lexical.concepts.sizes import (
+    Size,
+    everyday_object_row,
+    round_size,
+    size_log_likelihood_ratio,
+)
 from usd2kg.grounding.lexical.concepts.taxonomy import Taxonomy
 from usd2kg.grounding.lexical.matching.head_matching import HeadMatcher, HeadMatches, Match
 from usd2kg.grounding.lexical.reading.head_noun import HeadFeatures, head_likelihood, head_log_odds
@@ -75,6 +80,19 @@ class _ParentWords(NamedTuple):
 _NO_PARENT = _ParentWords(frozenset(), (), frozenset())
 
 
+class _Extent(NamedTuple):
+    """The size of an object, equal for copies that differ by rounding errors."""
+
+    size: Size
+    """Rounded extents in metres."""
+    is_below_places: bool
+    """Whether it is too small for a place."""
+
+
+def _extent_of(size: Size | None) -> _Extent | None:
+    return None if size is None else _Extent(round_size(size), max(size) < HEAD_NOUN.min_place_size)
+
+
 class PhraseMatcher:
     """Matches noun phrases with the meanings of their head nouns: classes of a TBox, or concepts."""
 
@@ -87,6 +105,8 @@ class PhraseMatcher:
         self._head = lru_cache(maxsize=4096)(self._match_head)
         self._inverted_head = lru_cache(maxsize=4096)(self._match_inverted_head)
         self._parent_words = lru_cache(maxsize=4096)(self._read_parent_words)
+        # Copies of one model have the same name and size.
+        self._known_matches = lru_cache(maxsize=16384)(self._find_matches)
 
     def match(self, phrase: NamePhrase, parents: tuple[str, ...], size: Size | None = None) -> list[Match]:
         """Return the classes that a phrase may mean, best first; none if no word is known.
@@ -105,9 +125,27 @@ class PhraseMatcher:
         self, phrase: NamePhrase, parents: tuple[str, ...], size: Size | None = None
     ) -> tuple[list[Match], float]:
         """Return the classes as `match` does, and the likelihood of such a name for an object of that size."""
+        places, parent = self._surroundings(phrase, parents)
+        matches, likelihood = self._known_matches(phrase, phrase.glued, places, parent, _extent_of(size))
+        return list(matches), likelihood
+
+    def _surroundings(self, phrase: NamePhrase, parents: tuple[str, ...]) -> tuple[tuple[str, ...], _ParentWords]:
+        parent = self._parent_words(parents[-1]) if parents else _NO_PARENT
+        return self._heads.place_words(phrase.context, parents), parent
+
+    def _find_matches(
+        self,
+        phrase: NamePhrase,
+        glued: tuple[bool, ...],
+        places: tuple[str, ...],
+        parent: _ParentWords,
+        extent: _Extent | None,
+    ) -> tuple[tuple[Match, ...], float]:
+        """Return the classes, best first, and the likelihood; `glued` tells apart phrases that compare equal."""
+        assert glued == phrase.glued
         heads = [
             (head_likelihood(features), head.classes, end)
-            for end, features, head in self.head_candidates(phrase, parents, size)
+            for end, features, head in self._head_candidates(phrase, places, parent, extent)
         ]
         total = sum([weight for weight, _, _ in heads])
         best: dict[ClassIRI, tuple[float, _ClassScore, int]] = {}
@@ -124,7 +162,7 @@ class PhraseMatcher:
             found.match._replace(score=found.score * (base + (1 - base) * shares[iri]), phrase=phrase, end=end)
             for iri, (_, found, end) in best.items()
         ]
-        return sorted(matches, key=lambda match: (-match.score, match.class_iri)), total
+        return tuple(sorted(matches, key=lambda match: (-match.score, match.class_iri))), total
 
     def find_object_row(self, phrase: NamePhrase) -> int | None:
         """Return the row in `everyday_objects.csv` of the object that a phrase names by its last words, or None."""
@@ -140,10 +178,13 @@ class PhraseMatcher:
         self, phrase: NamePhrase, parents: tuple[str, ...], size: Size | None
     ) -> list[tuple[int, HeadFeatures, HeadCandidate]]:
         """Return the words that may be the head noun, in order, as (number of words up to it, features, meaning)."""
+        return self._head_candidates(phrase, *self._surroundings(phrase, parents), _extent_of(size))
+
+    def _head_candidates(
+        self, phrase: NamePhrase, places: tuple[str, ...], parent: _ParentWords, size: _Extent | None
+    ) -> list[tuple[int, HeadFeatures, HeadCandidate]]:
         words = phrase.words
-        places = self._heads.place_words(phrase.context, parents)
         is_corrected = bool(phrase.corrections)
-        parent = self._parent_words(parents[-1]) if parents else _NO_PARENT
         whole = phrase.context or parent.words
         heads = [self._head_of_part(whole, words[:end], places, is_corrected) for end in range(1, len(words) + 1)]
         inside = _are_inside_compounds(heads)
@@ -221,7 +262,7 @@ class PhraseMatcher:
         phrase: NamePhrase,
         end: int,
         head: HeadCandidate,
-        size: Size | None,
+        size: _Extent | None,
         parent: _ParentWords,
         *,
         is_inside: bool = False,
@@ -254,7 +295,7 @@ class PhraseMatcher:
         )
 
     def _size_log_ratio(
-        self, words: tuple[str, ...], size: Size, traits: _WordTraits, before: tuple[str, ...]
+        self, words: tuple[str, ...], extent: _Extent, traits: _WordTraits, before: tuple[str, ...]
     ) -> float | None:
         """Return the bounded log-likelihood ratio of a size for a noun; None if its usual size is unknown.
 
@@ -262,8 +303,9 @@ class PhraseMatcher:
         size of a compound with any word before it, or else that of a hypernym.
         """
         is_single = len(words) == 1
-        if is_single and traits.is_place and max(size) < HEAD_NOUN.min_place_size:
+        if is_single and traits.is_place and extent.is_below_places:
             return _MIN_LOG_RATIO
+        size = extent.size
         ratio = size_log_likelihood_ratio(size, "".join(words))
         if is_single:
             compounds = (size_log_likelihood_ratio(size, word + words[0]) for word in before)

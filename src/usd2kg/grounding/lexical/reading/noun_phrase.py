@@ -1,7 +1,9 @@
 """Read a prim name as a noun phrase: its words in English, the head noun last."""
 
+import re
+from collections.abc import Sequence
 from dataclasses import dataclass, field
-from functools import lru_cache
+from functools import cached_property, lru_cache
 from itertools import pairwise, takewhile
 
 from usd2kg.grounding.lexical.alignment.lexicon import Lexicon
@@ -55,13 +57,24 @@ class NameReader:
         self._spelling = SpellingCorrector(lexicon, taxonomy, self.kinds)
         self.read = lru_cache(maxsize=4096)(self._read)
         """(name, names of the prims above, outermost first) → phrase."""
+        # Copies differ in their numbers, and most names do not refer to the prims above.
+        self._read_tokens = lru_cache(maxsize=4096)(self._compute_phrase)
 
     def _read(self, name: str, parents: tuple[str, ...] = ()) -> NamePhrase:
         tokens = self._content_tokens(self._cut_additions(tokens_of(name)))[: READING.max_words]
         tokens, references = self._split_references(tokens, parents)
+        return self._read_tokens(tuple(Token(token.text, "", token.is_glued) for token in tokens), _texts(references))
+
+    def _compute_phrase(self, tokens: tuple[Token, ...], references: tuple[str, ...]) -> NamePhrase:
+        """Return the phrase of a name.
+
+        Args:
+            tokens: its own tokens without numbers.
+            references: the texts of the tokens that refer to a prim above.
+        """
         translated = self._translate(_texts(tokens))
         if translated is not None:
-            return _translation(_texts(tokens), translated, context=_texts(references))
+            return _translation(_texts(tokens), translated, context=references)
         # An abbreviation among unknown words is left to the abbreviation reader, which knows the stage's words.
         others = [token.text for token in tokens if token.text not in usual_abbreviations()]
         is_spelled_out = any(map(self.kinds.is_known, others)) if others else len(tokens) > 1
@@ -78,7 +91,7 @@ class NameReader:
             glued.extend([token.is_glued, *[True] * (len(read) - 1)])
             if read not in {(token.text,), (self._taxonomy.singular(token.text),)}:
                 corrections.append((token.text, " ".join(read)))
-        context = tuple(word for token in references for word in self._spell_out(token.text, SPELLING.max_edits))
+        context = tuple(word for text in references for word in self._spell_out(text, SPELLING.max_edits))
         return NamePhrase(tuple(words), context, tuple(corrections), tuple(glued))
 
     def phrase(self, words: tuple[str, ...]) -> NamePhrase:
@@ -120,9 +133,16 @@ class NameReader:
         """Return the tokens without pipeline tokens (`low`, `test`), unless a term contains them: `TestTube`."""
         kept = {at for at, token in enumerate(tokens) if is_content_word(token.text)}
         for at in range(min(len(tokens), READING.max_words)):
-            if at not in kept:
+            if at not in kept and self._may_be_in_term(tokens[at].text):
                 kept.update(self._term_around(tokens, at))
         return [tokens[at] for at in sorted(kept)]
+
+    def _may_be_in_term(self, text: str) -> bool:
+        return not text.isdecimal() or text in self._digits_in_terms
+
+    @cached_property
+    def _digits_in_terms(self) -> str:
+        return " ".join(re.findall(r"\d+", " ".join(self._lexicon.terms)))
 
     def _term_around(self, tokens: list[Token], at: int) -> range:
         """Return the indices of the longest term of several tokens that contains one; empty if there is none."""
@@ -137,7 +157,7 @@ class NameReader:
         terms = [run for run in runs if "".join(tokens[i].text for i in run) in self._lexicon.terms]
         return max(terms, key=len, default=range(0))
 
-    def _index_of_last_object(self, tokens: list[Token]) -> int:
+    def _index_of_last_object(self, tokens: Sequence[Token]) -> int:
         """Return the index of the last token that names an object as it stands; -1 if there is none."""
         return next((at for at in reversed(range(len(tokens))) if self._names_object(tokens[at].text)), -1)
 
@@ -188,7 +208,7 @@ class NameReader:
         return pair[0].text + self._taxonomy.singular(pair[1].text) in self._lexicon.terms
 
 
-def _texts(tokens: list[Token]) -> tuple[str, ...]:
+def _texts(tokens: Sequence[Token]) -> tuple[str, ...]:
     return tuple(token.text for token in tokens)
 
 
