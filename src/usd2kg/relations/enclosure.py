@@ -18,7 +18,7 @@ Array = NDArray[np.float64]
 Indices = NDArray[np.int64]
 Mask = NDArray[np.bool_]
 
-_BLOCK = 1 << 12
+_BLOCK = 1 << 9
 """Pairs measured at a time, which bounds memory."""
 _UP = 2
 _AXES = 3

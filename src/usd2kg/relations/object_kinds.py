@@ -8,6 +8,7 @@ then a wall under every ontology.
 from collections.abc import Sequence
 from collections.abc import Set as AbstractSet
 from dataclasses import dataclass
+from functools import cache
 
 from usd2kg.grounding import (
     EVIDENCE_GROUPS,
@@ -48,23 +49,31 @@ def find_kinds(scene: Scene, tbox: TBox, grounding: Grounding) -> list[ObjectKin
     homely: dict[str, ClassIRI | None] = {path: iri for path, iri in classes.items() if iri in home.by_iri}
     if foreign := classes.keys() - homely.keys():
         homely |= _home_classes(scene, tbox, grounding, foreign)
+
+    # Few kinds for many objects, which share them.
+    @cache
+    def kind_of(iri: ClassIRI | None, home_iri: ClassIRI | None, concept: str | None) -> ObjectKind:
+        return _make_kind([(tbox, iri), (home, home_iri)], _with_hypernyms(grounding, concept))
+
     return [
-        _make_kind(
-            [(tbox, classes[obj.prim_path]), (home, homely.get(obj.prim_path))],
-            _concepts_of(grounding, grounding.by_path.get(obj.prim_path)),
-        )
+        kind_of(classes[obj.prim_path], homely.get(obj.prim_path), _concept_of(grounding.by_path.get(obj.prim_path)))
         for obj in scene.objects
     ]
 
 
-def _concepts_of(grounding: Grounding, prediction: Prediction | None) -> tuple[str, ...]:
-    """Return the IRIs of the concept that an object's name means, and of its hypernyms; none if a person disagrees."""
-    if prediction is None or prediction.concept is None or prediction.status is Status.REVIEWED:
+def _concept_of(prediction: Prediction | None) -> str | None:
+    """Return the IRI of the concept that an object's name means; None if a person disagrees."""
+    return None if prediction is None or prediction.status is Status.REVIEWED else prediction.concept
+
+
+def _with_hypernyms(grounding: Grounding, concept: str | None) -> tuple[str, ...]:
+    """Return the IRIs of a concept and of its hypernyms; none without a concept."""
+    if concept is None:
         return ()
-    found = [prediction.concept]
+    found = [concept]
     for iri in found:
-        concept = grounding.concepts.get(iri)
-        found.extend(above for above in (concept.broader if concept else ()) if above not in found)
+        known = grounding.concepts.get(iri)
+        found.extend(above for above in (known.broader if known else ()) if above not in found)
     return tuple(found)
 
 

@@ -30,7 +30,7 @@ Mask = NDArray[np.bool_]
 
 _ROUNDING = 1e-5
 """Metres: heights that differ by less are equal."""
-_BLOCK = 1 << 12
+_BLOCK = 1 << 9
 """Pairs of objects and meshes that are measured at a time, which bounds memory."""
 
 

@@ -18,7 +18,7 @@ _EDGE_TOLERANCE = 1e-4
 """Tolerance in barycentric coordinates, so that a line through a shared edge does not miss both triangles."""
 _MIN_PROJECTION = 1e-9
 """Share of the squared extent below which a projected triangle has no area: the line runs along it."""
-_CHUNK = 1 << 18
+_CHUNK = 1 << 15
 """Triangles, and pairs of lines and triangles, tested at a time, which bounds memory."""
 
 
@@ -47,8 +47,8 @@ def find_crossings(points: Sequence[Array], surfaces: Sequence[Surface], axis: i
     start = line = 0
     while start < len(surfaces):
         end, triangles = start, 0
-        while end < len(surfaces) and (end == start or triangles + len(surfaces[end].corners) <= _CHUNK):
-            triangles += len(surfaces[end].corners)
+        while end < len(surfaces) and (end == start or triangles + surfaces[end].triangle_count <= _CHUNK):
+            triangles += surfaces[end].triangle_count
             end += 1
         for crossings in _cross_some(points[start:end], surfaces[start:end], axis):
             found.append(crossings._replace(line=crossings.line + line))
@@ -63,7 +63,7 @@ def _cross_some(points: Sequence[Array], surfaces: Sequence[Surface], axis: int)
     starts = np.cumsum(count) - count
     lines = np.concatenate(points)
     lines_first, lines_second = np.ascontiguousarray(lines[:, first]), np.ascontiguousarray(lines[:, second])
-    owner = np.repeat(np.arange(len(surfaces)), [len(surface.corners) for surface in surfaces])
+    owner = np.repeat(np.arange(len(surfaces)), [surface.triangle_count for surface in surfaces])
     lower = np.concatenate([surface.lower for surface in surfaces])
     upper = np.concatenate([surface.upper for surface in surfaces])
     near = np.flatnonzero(
@@ -76,11 +76,13 @@ def _cross_some(points: Sequence[Array], surfaces: Sequence[Surface], axis: int)
     )
     # Few triangles are over a line, and what a crossing needs of one takes longest.
     met = np.flatnonzero(end > begin)
-    near, lower, upper, begin, end = near[met], lower[met], upper[met], begin[met], end[met]
-    triangles = _Triangles.of(np.concatenate([surface.corners for surface in surfaces])[near], (axis, first, second))
-    low, high = np.ascontiguousarray(lower[:, second]), np.ascontiguousarray(upper[:, second])
+    corners = np.concatenate([surface.corners for surface in surfaces])[near[met]]
+    is_wide, triangles = _Triangles.of(corners, (axis, first, second))
+    met = met[is_wide]
+    begin, end = begin[met], end[met]
+    low, high = lower[met, second], upper[met, second]
     tests = np.cumsum(end - begin)
-    for part in np.split(np.arange(len(near)), np.flatnonzero(np.diff(tests // _CHUNK)) + 1):
+    for part in np.split(np.arange(len(met)), np.flatnonzero(np.diff(tests // _CHUNK)) + 1):
         row, nth = ragged_indices((end - begin)[part])
         triangle = part[row]
         line = order[begin[triangle] + nth]
@@ -122,26 +124,26 @@ class _Triangles(NamedTuple):
     """The side from it to the second corner."""
     v: tuple[Array, Array, Array]
     area: Array
-    """Twice the signed area of the projection along the axis; 0 if the triangle is seen from the side."""
+    """Twice the signed area of the projection along the axis."""
     faces: Array
     """As in `Crossings`."""
 
     @classmethod
-    def of(cls, corners: Array, axes: tuple[int, int, int]) -> "_Triangles":
+    def of(cls, corners: Array, axes: tuple[int, int, int]) -> tuple[Indices, "_Triangles"]:
+        """Return the rows of the triangles that are not seen from the side, and these triangles."""
         u_rows, v_rows = corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]
-        origin, u, v = (_columns(rows, axes) for rows in (corners[:, 0], u_rows, v_rows))
-        area = u[1] * v[2] - u[2] * v[1]
-        is_wide = np.abs(area) > _MIN_PROJECTION * ((u_rows * u_rows).sum(axis=1) + (v_rows * v_rows).sum(axis=1))
+        _, first, second = axes
+        area = u_rows[:, first] * v_rows[:, second] - u_rows[:, second] * v_rows[:, first]
+        least = _MIN_PROJECTION * ((u_rows * u_rows).sum(axis=1) + (v_rows * v_rows).sum(axis=1))
+        is_wide = np.flatnonzero(np.abs(area) > least)
+        u_rows, v_rows = u_rows[is_wide], v_rows[is_wide]
+        origin, u, v = (_columns(rows, axes) for rows in (corners[is_wide, 0], u_rows, v_rows))
         normals = np.cross(u_rows, v_rows)
-        with np.errstate(invalid="ignore"):
-            # Only triangles without area have no normal, and no line crosses them.
-            faces = normals[:, axes[0]] / np.sqrt((normals * normals).sum(axis=1))
-        return cls(origin, u, v, np.where(is_wide, area, 0.0), faces)
+        faces = normals[:, axes[0]] / np.sqrt((normals * normals).sum(axis=1))
+        return is_wide, cls(origin, u, v, area[is_wide], faces)
 
     def crossed_by(self, line: Indices, triangle: Indices, first: Array, second: Array) -> Crossings:
         """Return the crossings of pairs of lines, at `first` and `second`, and triangles; in order of both."""
-        is_wide = self.area[triangle] != 0
-        line, triangle = line[is_wide], triangle[is_wide]
         area = self.area[triangle]
         u_first, u_second = self.u[1][triangle], self.u[2][triangle]
         v_first, v_second = self.v[1][triangle], self.v[2][triangle]

@@ -21,8 +21,8 @@ _MAX_BOX_POINTS = 64
 """A box with three normals per corner has 24 points; some exporters write one per triangle corner."""
 
 
-_MAX_TRIANGLES = 2_000_000
-"""Triangles kept in double precision, 240 MB; affects speed and memory only."""
+_MAX_TRIANGLES = 500_000
+"""Triangles kept in double precision, 60 MB; affects speed and memory only."""
 
 
 class SurfacePiece(NamedTuple):
@@ -77,6 +77,11 @@ class Surface:
         self._cache = cache
 
     @property
+    def triangle_count(self) -> int:
+        """Number of triangles, known without their corners."""
+        return sum([len(piece.triangles) for piece in self.pieces])
+
+    @property
     def corners(self) -> Array:
         """(m, 3, 3), the corners of the triangles, counter-clockwise seen from outside."""
         return self._world.corners
@@ -122,7 +127,15 @@ def _corners(piece: SurfacePiece) -> Array:
 
 def turned_outward(piece: SurfacePiece) -> NDArray[np.int32]:
     """Return the triangles of a piece, counter-clockwise seen from outside in the world: mirroring inverts them."""
-    return piece.triangles[:, ::-1] if np.linalg.det(piece.matrix[:3, :3]) < 0 else piece.triangles
+    return piece.triangles[:, ::-1] if _is_mirrored(piece.matrix) else piece.triangles
+
+
+def _is_mirrored(matrix: Array) -> bool:
+    (xx, xy, xz), (yx, yy, yz), (zx, zy, zz) = matrix[:3, :3].tolist()
+    # Most objects are not rotated, and numpy.linalg.det takes long for one small matrix.
+    if xy == xz == yx == yz == zx == zy == 0:
+        return bool(xx * yy * zz < 0)
+    return bool(np.linalg.det(matrix[:3, :3]) < 0)
 
 
 def is_box(surface: Surface) -> bool:
