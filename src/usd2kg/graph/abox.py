@@ -38,6 +38,7 @@ from usd2kg.relations import ROOM_KINDS, Relation, find_relations
 from usd2kg.rich_display import RichDisplay
 from usd2kg.scene import Scene, SceneObject
 from usd2kg.tracing import traced
+from usd2kg.two_processes import compute_in_halves
 
 __all__ = ["PROFILES", "KnowledgeGraph", "instantiate"]
 
@@ -45,6 +46,8 @@ PROFILES = ("auto", "soma", "plain")
 """Modelling patterns; `auto` is soma if the TBox uses SOMA or DUL, else plain."""
 
 _SOMA_DOCUMENTS = "http://www.ease-crc.org/ont/SOMA"
+_MANY_OBJECTS = 20_000
+"""Objects from which a second process saves seconds."""
 
 
 @dataclass(frozen=True)
@@ -177,7 +180,19 @@ class _GraphBuilder:
 
     def build(self, prefixes: Mapping[str, str]) -> PackedTriples:
         """Return all triples without duplicates."""
-        statements = PackedTriples(chain.from_iterable(map(self._record, self._blocks())), prefixes)
+
+        def pack(blocks: Iterable[Iterable[Triple]]) -> PackedTriples:
+            return PackedTriples(chain.from_iterable(map(self._record, blocks)), prefixes)
+
+        def pack_objects(objects: Sequence[SceneObject]) -> tuple[PackedTriples, set[ox.NamedNode], set[ox.NamedNode]]:
+            return pack(map(self._object, objects)), self.properties, self.classes
+
+        statements = pack(self._blocks_of_scene())
+        for packed, properties, classes in compute_in_halves(pack_objects, self.scene.objects, least=_MANY_OBJECTS):
+            statements += packed
+            self.properties |= properties
+            self.classes |= classes
+        statements += pack(map(self.profile.describe_joint, self.joints))
         used = {p.class_iri for p in self.grounding.predictions if p.class_iri} | set(self.room_classes.values())
         declarations = declare_terms(self.properties, self.classes)
         head = dict.fromkeys((*self._header(), *declarations, *declare_classes(used, self.tbox)))
@@ -191,16 +206,12 @@ class _GraphBuilder:
         self.classes.update(v for _, p, v in stated if p == kind and isinstance(v, ox.NamedNode))
         return dict.fromkeys(starmap(ox.Triple, stated))
 
-    def _blocks(self) -> Iterator[Iterable[Triple]]:
-        """Yield blocks of triples that have no triple in common."""
+    def _blocks_of_scene(self) -> Iterator[Iterable[Triple]]:
+        """Yield the blocks that are not about one object; no two blocks of a graph have a triple in common."""
         yield self._provenance()
         yield concept_triples(self.grounding.concepts.values())
         yield self._members()
         yield self._rooms()
-        for obj in self.scene.objects:
-            yield self._object(obj)
-        for linked in self.joints:
-            yield self.profile.describe_joint(linked)
 
     def _header(self) -> Iterator[Triple]:
         yield self.graph, RDF.type, OWL.Ontology

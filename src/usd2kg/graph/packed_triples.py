@@ -57,7 +57,8 @@ class PackedTriples(Sequence[ox.Triple]):
     def __eq__(self, other: object) -> bool:
         if not isinstance(other, PackedTriples):
             return NotImplemented
-        return (self.prefixes, self._packed) == (other.prefixes, other._packed)
+        # Equal triples may be packed in other portions.
+        return self.prefixes == other.prefixes and b"".join(self.turtle()) == b"".join(other.turtle())
 
     __hash__ = None  # type: ignore[assignment]
 

@@ -1,7 +1,8 @@
 """Objects as arrays: boxes, footprints, feet, parts, and membership in class lists."""
 
 from collections.abc import Mapping, Sequence
-from functools import cached_property
+from functools import cached_property, partial
+from itertools import chain
 from typing import NamedTuple
 
 import numpy as np
@@ -14,12 +15,16 @@ from usd2kg.relations.settings import FOOTPRINT
 from usd2kg.relations.thresholds import ClassLists, ObjectGeometry
 from usd2kg.scene import Box, SceneObject, find_surplus
 from usd2kg.shapes.surface import Surface, SurfaceCache
+from usd2kg.two_processes import compute_in_halves
 
 __all__ = ["BoxedObjects", "ClassMembership", "Footprints", "corners_of", "overlap_areas"]
 
 Array = NDArray[np.float64]
 Indices = NDArray[np.int64]
 Mask = NDArray[np.bool_]
+
+_MANY_SURFACES = 20_000
+"""Surfaces from which a second process saves time."""
 
 
 class ClassMembership:
@@ -123,7 +128,9 @@ class BoxedObjects:
         lower, upper = self.feet
         feet = {i: grid_feet(lower[i], upper[i]) for i in indices[~self.has_surface[indices]].tolist()}
         meshes = self._surfaces_of(indices)
-        return feet | dict(zip(meshes, find_feet([*meshes.values()], self.geometry.foot_height), strict=True))
+        find = partial(find_feet, height=self.geometry.foot_height)
+        found = chain.from_iterable(compute_in_halves(find, [*meshes.values()], least=_MANY_SURFACES))
+        return feet | dict(zip(meshes, found, strict=True))
 
     def undersides_of(self, indices: Indices) -> dict[int, Array]:
         """Return index → points (n, 3) on the whole underside of the objects with a surface."""

@@ -6,8 +6,8 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from usd2kg.relations.array_records import concatenate_rows
 from usd2kg.relations.boxed_objects import BoxedObjects
+from usd2kg.relations.pair_blocks import measure_in_blocks
 from usd2kg.relations.settings import ENCLOSURE
 from usd2kg.shapes.axis_rays import find_crossings
 from usd2kg.shapes.surface import Surface
@@ -18,8 +18,6 @@ Array = NDArray[np.float64]
 Indices = NDArray[np.int64]
 Mask = NDArray[np.bool_]
 
-_BLOCK = 1 << 9
-"""Pairs measured at a time, which bounds memory."""
 _UP = 2
 _AXES = 3
 
@@ -49,8 +47,7 @@ def measure_enclosures(boxed: BoxedObjects, target: Indices, anchor: Indices) ->
         target: indices of the objects that may be inside.
         anchor: indices of the objects that may contain them; they have a surface.
     """
-    blocks = np.array_split(np.arange(len(target)), len(target) // _BLOCK + 1)
-    return concatenate_rows([_measure_some(boxed, target[some], anchor[some]) for some in blocks])
+    return measure_in_blocks(lambda some: _measure_some(boxed, target[some], anchor[some]), len(target))
 
 
 def _measure_some(boxed: BoxedObjects, target: Indices, anchor: Indices) -> Enclosures:

@@ -16,6 +16,7 @@ from usd2kg.relations.array_records import (
 )
 from usd2kg.relations.boxed_objects import BoxedObjects, ClassMembership, corners_of, overlap_areas
 from usd2kg.relations.model import Links, margin_above, margin_below, margin_score
+from usd2kg.relations.pair_blocks import measure_in_blocks
 from usd2kg.relations.protrusions import has_protrusion
 from usd2kg.relations.surface_contact import Standing, measure_contacts
 from usd2kg.relations.thresholds import OnRule, RelationRules
@@ -30,8 +31,6 @@ Mask = NDArray[np.bool_]
 
 _ROUNDING = 1e-5
 """Metres: heights that differ by less are equal."""
-_BLOCK = 1 << 9
-"""Pairs of objects and meshes that are measured at a time, which bounds memory."""
 
 
 class _Contacts(NamedTuple):
@@ -225,8 +224,7 @@ def _on_surfaces(boxed: BoxedObjects, targets: Indices, anchors: Indices, limits
 def _measure(
     boxed: BoxedObjects, target: Indices, anchor: Indices, points: Mapping[int, Array], limits: _Limits
 ) -> _Contacts:
-    blocks = np.array_split(np.arange(len(target)), len(target) // _BLOCK + 1)
-    return concatenate_rows([_measure_some(boxed, target[some], anchor[some], points, limits) for some in blocks])
+    return measure_in_blocks(lambda some: _measure_some(boxed, target[some], anchor[some], points, limits), len(target))
 
 
 def _measure_some(
