@@ -1,7 +1,7 @@
 """Evidence on objects: asset names, geometry file, part names, mass, display colour."""
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping, Sequence
 from functools import lru_cache
 from pathlib import Path, PurePosixPath
 from typing import Any, NamedTuple
@@ -14,7 +14,17 @@ from usd2kg.scene.model import StageFrame, Vector
 from usd2kg.scene.outline import PrimRecord
 from usd2kg.scene.stage import read_value
 
-__all__ = ["Mass", "asset_names", "display_color", "geometry_file", "own_records", "part_names", "read_mass"]
+__all__ = [
+    "AssetArc",
+    "Mass",
+    "asset_arcs",
+    "asset_names",
+    "display_color",
+    "geometry_file",
+    "own_records",
+    "part_names",
+    "read_mass",
+]
 
 _CACHE_SIZE = 10_000
 """Asset paths that each cache keeps; many objects reference the same few files."""
@@ -36,17 +46,36 @@ def own_records(record: PrimRecord, objects: frozenset[str] | dict[str, str]) ->
             pending.extend(child for child in reversed(current.children) if child.path not in objects)
 
 
-def asset_names(prim: Any) -> tuple[str, ...]:
-    """Return the names of a prim's asset: name and identifier of assetInfo, then the stems of referenced files."""
-    names = []
-    if prim.HasAuthoredAssetInfo():
-        info = prim.GetAssetInfo()
-        identifier = info.get("identifier")
-        names = [str(info.get("name", "")), _stem(getattr(identifier, "path", str(identifier or "")))]
-    if prim.HasAuthoredReferences() or prim.HasAuthoredPayloads():
-        for spec in prim.GetPrimStack():
-            for arcs in (spec.referenceList, spec.payloadList):
-                names.extend(_stem(arc.assetPath) for arc in arcs.GetAddedOrExplicitItems())
+class AssetArc(NamedTuple):
+    """A reference or payload."""
+
+    layer: Any
+    """The layer that states it."""
+    asset_path: str
+    """As authored; empty for a prim in the same layer."""
+
+
+def asset_arcs(prim: Any) -> list[AssetArc]:
+    """Return the references and payloads of a prim, the strongest first."""
+    return [
+        AssetArc(spec.layer, arc.assetPath)
+        for spec in prim.GetPrimStack()
+        if spec.hasReferences or spec.hasPayloads
+        for arcs in (spec.referenceList, spec.payloadList)
+        for arc in arcs.GetAddedOrExplicitItems()
+    ]
+
+
+def asset_names(info: Mapping[str, Any], arcs: Sequence[AssetArc]) -> tuple[str, ...]:
+    """Return the names of a prim's asset: name and identifier of assetInfo, then the stems of referenced files.
+
+    Args:
+        info: the prim's assetInfo; empty if it has none.
+        arcs: its references and payloads.
+    """
+    identifier = info.get("identifier")
+    names = [str(info.get("name", "")), _stem(getattr(identifier, "path", str(identifier or "")))]
+    names.extend(_stem(arc.asset_path) for arc in arcs)
     return tuple(dict.fromkeys(name for name in names if name))
 
 
@@ -55,27 +84,29 @@ def _stem(asset_path: str) -> str:
     return PurePosixPath(asset_path.replace("\\", "/")).stem
 
 
-def geometry_file(records: list[PrimRecord]) -> str:
+def geometry_file(records: list[PrimRecord], arcs: Sequence[AssetArc]) -> str:
     """Return the file of an object's geometry; empty if there is none, or more than one.
 
     The strongest reference or payload on the object's prim, else the only one on its children. The path is relative to
     the folder of the root layer if the file is in it (in a package: `room.usdz[chair.usda]`), else as authored.
+
+    Args:
+        records: the object's prim and the prims below it without nested objects.
+        arcs: the references and payloads of the object's prim.
     """
-    if records[0].may_have_asset and (path := _strongest_file(records[0].prim)):
+    if path := _strongest_file(records[0], arcs):
         return path
     below = [record for record in records[1:] if record.parent is records[0] and record.may_have_asset]
-    paths = {path for record in below if (path := _strongest_file(record.prim))}
+    paths = {path for record in below if (path := _strongest_file(record, asset_arcs(record.prim)))}
     return paths.pop() if len(paths) == 1 else ""
 
 
-def _strongest_file(prim: Any) -> str:
-    for spec in prim.GetPrimStack():
-        for arcs in (spec.referenceList, spec.payloadList):
-            for arc in arcs.GetAddedOrExplicitItems():
-                if arc.assetPath:
-                    path = Sdf.ComputeAssetPathRelativeToLayer(spec.layer, arc.assetPath)
-                    relative = _relative_path(path, prim.GetStage().GetRootLayer().realPath)
-                    return str(arc.assetPath) if relative is None else relative
+def _strongest_file(record: PrimRecord, arcs: Sequence[AssetArc]) -> str:
+    for layer, asset_path in arcs:
+        if asset_path:
+            path = Sdf.ComputeAssetPathRelativeToLayer(layer, asset_path)
+            relative = _relative_path(path, record.stage.GetRootLayer().realPath)
+            return str(asset_path) if relative is None else relative
     return ""
 
 

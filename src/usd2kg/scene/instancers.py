@@ -8,7 +8,7 @@ import numpy as np
 from pxr import Usd, UsdGeom, Vt
 
 from usd2kg.scene.bounds import BoxReader, pose_of
-from usd2kg.scene.evidence import asset_names
+from usd2kg.scene.evidence import asset_arcs, asset_names
 from usd2kg.scene.model import Box, Diagnostic, Instances, SceneObject, StageFrame
 from usd2kg.scene.outline import PrimRecord
 from usd2kg.scene.stage import read_targets, read_value
@@ -144,7 +144,7 @@ def _copy(
         mass_kg=None,
         display_name=prototype.GetDisplayName() if prototype else "",
         documentation=prototype.GetDocumentation().strip() if prototype else "",
-        asset=asset_names(prototype) if prototype else (),
+        asset=asset_names(prototype.GetAssetInfo(), asset_arcs(prototype)) if prototype else (),
         materials=(),
         parts=(),
         display_color=None,

@@ -12,7 +12,15 @@ from pxr import Usd
 from usd2kg.errors import SceneError
 from usd2kg.garbage import paused_collection
 from usd2kg.scene.bounds import BoxReader, union
-from usd2kg.scene.evidence import asset_names, display_color, geometry_file, own_records, part_names, read_mass
+from usd2kg.scene.evidence import (
+    asset_arcs,
+    asset_names,
+    display_color,
+    geometry_file,
+    own_records,
+    part_names,
+    read_mass,
+)
 from usd2kg.scene.instancers import count_copies, read_copies
 from usd2kg.scene.joints import read_joints
 from usd2kg.scene.label_lint import lint_labels
@@ -335,14 +343,15 @@ class _ObjectReader:
     def _evidence(self, records: list[PrimRecord], boxes: _ObjectBoxes) -> dict[str, Any]:
         """Return the fields of an object that are read from OpenUSD."""
         record, prim = records[0], records[0].prim
+        arcs = asset_arcs(prim) if record.may_have_asset else []
         materials = self.materials.read(records)
         mass = read_mass(records, self.boxes, self.frame)
         return {
             "oriented_size": self.boxes.read_oriented_size(record) if boxes.below else None,
             "mass_kg": mass.kg,
             "center_of_mass": mass.center,
-            "asset": asset_names(prim) if record.may_have_asset else (),
-            "geometry_file": geometry_file(records),
+            "asset": asset_names(record.metadata.get("assetInfo", {}), arcs),
+            "geometry_file": geometry_file(records, arcs),
             "materials": tuple(dict.fromkeys(material.name for material in materials)),
             "material_details": materials,
             "display_color": display_color(records, self.time),
