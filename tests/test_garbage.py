@@ -7,7 +7,7 @@ from collections.abc import Iterator
 
 import pytest
 
-from usd2kg.garbage import paused_collection
+from usd2kg.garbage import paused_collection, release_freed_memory
 
 
 @pytest.fixture
@@ -74,3 +74,9 @@ def test_a_command_does_not_collect_at_exit(start: str, printed: str):
     command = [sys.executable, "-c", start + FINALIZED_CYCLE]
     done = subprocess.run(command, capture_output=True, text=True, check=True, timeout=60)
     assert done.stdout == printed
+
+
+def test_releases_memory_on_any_system(monkeypatch: pytest.MonkeyPatch):
+    release_freed_memory()
+    monkeypatch.setattr("sys.platform", "darwin")
+    release_freed_memory()

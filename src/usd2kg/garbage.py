@@ -1,11 +1,12 @@
-"""Run the cyclic garbage collector less often while allocating long-lived objects."""
+"""Collect cyclic garbage less often, and return freed memory to the system."""
 
 import atexit
 import gc
+import sys
 from collections.abc import Iterator
 from contextlib import contextmanager
 
-__all__ = ["collect_rarely", "paused_collection"]
+__all__ = ["collect_rarely", "paused_collection", "release_freed_memory"]
 
 _YOUNG_OBJECTS = 30_000
 """New containers before a collection; Python's 700 are reached about 170 times by a command on a small scene."""
@@ -40,3 +41,16 @@ def _move_to_oldest_generation() -> None:
     if gc.get_freeze_count() == 0:
         gc.freeze()
         gc.unfreeze()
+
+
+def release_freed_memory() -> None:
+    """Return memory that was freed to the system, where the C library can (glibc).
+
+    It keeps the memory of a closed stage otherwise, 150 MB for 100,000 objects, and other steps add theirs to it.
+    """
+    # Only large stages need it.
+    import ctypes
+
+    trim = getattr(ctypes.CDLL(None), "malloc_trim", None) if sys.platform == "linux" else None
+    if trim is not None:
+        trim(0)

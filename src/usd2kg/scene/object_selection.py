@@ -314,10 +314,11 @@ def explain(path: str, outline: Outline, selection: Selection) -> str:
     """Return a sentence on why the prim at `path` is or is not an object."""
     if path in selection.chosen:
         return f"{path} is an object: {selection.chosen[path]}"
+    pruned = outline.pruned
     for above in _paths_up(path):
-        if above in outline.pruned:
+        if above in pruned:
             subject = "it is" if above == path else f"it is below {above}, which is"
-            return f"{path} is not an object: {subject} left out ({outline.pruned[above]})"
+            return f"{path} is not an object: {subject} left out ({pruned[above]})"
     record = next((record for record in (outline.root, *outline.records) if record.path == path), None)
     if record is None:
         return f"{path} is not an object: it belongs to the prototypes of a point instancer"

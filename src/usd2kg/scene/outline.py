@@ -139,8 +139,8 @@ class Outline:
     """All records below the root, parents first."""
     left_out: Counter[str] = field(default_factory=Counter)
     """Reason → number of prims."""
-    pruned: dict[str, str] = field(default_factory=dict)
-    """Path of a pruned prim → reason."""
+    faults: dict[str, str] = field(default_factory=dict)
+    """Path of a prim that was pruned for a fault of the stage → reason, in traversal order."""
     prim_count: int = 0
     joints: list[JointLink] = field(default_factory=list)
     """The bodies of the joints, in traversal order."""
@@ -150,6 +150,15 @@ class Outline:
     """Prims with semantic properties or schemas, in traversal order; prims shared by instances only once."""
     has_purpose_bindings: bool = False
     """Whether any material is bound for a single purpose, or to a collection."""
+
+    @property
+    def pruned(self) -> dict[str, str]:
+        """Path of each pruned prim → reason; made anew on each access."""
+        return {
+            f"{record.path.rstrip('/')}/{name}": reason
+            for record in (self.root, *self.records)
+            for name, reason in record.left_out or ()
+        }
 
     def __enter__(self) -> "Outline":
         return self

@@ -4,13 +4,13 @@ import math
 from collections.abc import Iterable, Iterator
 from dataclasses import replace
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, TypeVar
 
 import numpy as np
 from pxr import Usd
 
 from usd2kg.errors import SceneError
-from usd2kg.garbage import paused_collection
+from usd2kg.garbage import paused_collection, release_freed_memory
 from usd2kg.scene.bounds import BoxReader, union
 from usd2kg.scene.evidence import (
     asset_arcs,
@@ -49,10 +49,14 @@ from usd2kg.tracing import traced
 
 __all__ = ["ASKED_FOR", "explain_choice", "read_scene"]
 
+_Text = TypeVar("_Text")
+
 _MAX_REASONS = 4
 """Number of reasons listed in the error message for a stage without objects."""
 _BATCH = 1000
 """Objects whose materials are computed together; affects speed only."""
+_MANY_PRIMS = 100_000
+"""Prims from which the memory of a closed stage is worth returning."""
 _NO_EVIDENCE: dict[str, Any] = {"mass_kg": None, "asset": (), "materials": (), "display_color": None}
 """Fields without defaults, for an object that OpenUSD cannot read."""
 
@@ -73,7 +77,13 @@ def read_scene(
     Raises:
         SceneError: the file cannot be read, or the stage has no objects.
     """
-    options = options or ReadOptions()
+    scene = _read_stage(source, paths, options or ReadOptions())
+    if scene.prim_count >= _MANY_PRIMS:
+        release_freed_memory()
+    return scene
+
+
+def _read_stage(source: Path | str | Usd.Stage, paths: Iterable[str] | None, options: ReadOptions) -> Scene:
     opened = open_stage(source, options)
     time = time_code(options.time)
     with (
@@ -117,10 +127,8 @@ def _left_out_notes(outline: Outline) -> Iterator[Diagnostic]:
         UNREADABLE_PRIM: "OpenUSD cannot read it; it is left out with all prims below it",
         ENDLESS: "a point instancer contains itself through its prototypes; it is left out",
     }
-    if any(outline.left_out[reason] for reason in consequence):
-        for path, reason in outline.pruned.items():
-            if reason in consequence:
-                yield Diagnostic("geometry", consequence[reason], path)
+    for path, reason in outline.faults.items():
+        yield Diagnostic("geometry", consequence[reason], path)
 
 
 def _on_one_line(note: Diagnostic) -> Diagnostic:
@@ -247,6 +255,8 @@ class _ObjectReader:
         self.notes: list[Diagnostic] = []
         self.surfaces: dict[str, Surface] = {}
         self.shells: dict[str, tuple[Box, ...]] = {}
+        self._tuples: dict[tuple[Any, ...], tuple[Any, ...]] = {}
+        """Equal texts of several objects, kept once."""
 
     def measure(self, found: list[_SelectedPrim]) -> dict[str, _ObjectBoxes]:
         """Return the boxes of the objects by path."""
@@ -333,7 +343,7 @@ class _ObjectReader:
             orientation=orientation,
             display_name=str(record.metadata.get("displayName", "")),
             documentation=str(record.metadata.get("documentation", "")).strip(),
-            parts=part_names(entry.records),
+            parts=self._once(part_names(entry.records)),
             instance_of=record.first_instance,
             support_levels=levels,
             shell_boxes=self.shells.get(record.path, ()),
@@ -350,17 +360,20 @@ class _ObjectReader:
             "oriented_size": self.boxes.read_oriented_size(record) if boxes.below else None,
             "mass_kg": mass.kg,
             "center_of_mass": mass.center,
-            "asset": asset_names(record.metadata.get("assetInfo", {}), arcs),
+            "asset": self._once(asset_names(record.metadata.get("assetInfo", {}), arcs)),
             "geometry_file": geometry_file(records, arcs),
-            "materials": tuple(dict.fromkeys(material.name for material in materials)),
+            "materials": self._once(tuple(dict.fromkeys(material.name for material in materials))),
             "material_details": materials,
             "display_color": display_color(records, self.time),
             "instances": count_copies(records, self.time),
             "labels": self.labels.read(records) if self.has_labels else NO_LABELS,
             "variants": variant_selections(prim),
             "source_id": source_id(prim) if "customData" in record.metadata else "",
-            "texts": text_attributes(prim, self.time) if record.may_have_texts else (),
+            "texts": self._once(text_attributes(prim, self.time)) if record.may_have_texts else (),
         }
+
+    def _once(self, texts: tuple[_Text, ...]) -> tuple[_Text, ...]:
+        return self._tuples.setdefault(texts, texts)
 
     def read_copies(self, instancer: PrimRecord, parent_path: str | None) -> list[SceneObject]:
         """Return the copies of a point instancer; none if OpenUSD cannot read it."""

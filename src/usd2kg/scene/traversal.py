@@ -5,6 +5,7 @@ read. Prims that are never objects (cameras, materials, inactive or invisible su
 and pruned. A prototype is traversed for its first instance only.
 """
 
+import sys
 from collections.abc import Mapping, Sequence
 from typing import Any, NamedTuple
 
@@ -21,6 +22,7 @@ __all__ = ["ENDLESS", "UNREADABLE_PRIM", "outline_stage", "paths_above_endless"]
 ENDLESS = "point instancer among its own prototypes"
 UNREADABLE_PRIM = "unreadable"
 """Reasons of pruned prims that are reported as diagnostics."""
+_FAULTS = frozenset({ENDLESS, UNREADABLE_PRIM})
 
 _HIDDEN_PURPOSES = frozenset({UsdGeom.Tokens.guide, UsdGeom.Tokens.proxy})
 _TURNING_OPS = ("xformOp:rotate", "xformOp:orient", "xformOp:transform", "xformOp:shear")
@@ -94,10 +96,12 @@ class _Outliner:
         for prim in prims:
             path = prim.GetPath().pathString
             above, _, name = path.rpartition("/")
+            # Many prims have the same names, which the scene keeps.
+            name = sys.intern(name)
             try:
                 record = self._enter(prim, path, name, entered[above or "/"])
             except UNREADABLE:
-                self._leave_out(path, name, entered[above or "/"], UNREADABLE_PRIM)
+                self._leave_out((name, UNREADABLE_PRIM), entered[above or "/"])
                 record = None
             if record is None:
                 prims.PruneChildren()
@@ -115,7 +119,7 @@ class _Outliner:
         metadata = prim.GetAllAuthoredMetadata()
         reason = _reason_of(metadata)
         if reason is not None:
-            self._leave_out(path, name, parent, reason)
+            self._leave_out((name, reason), parent)
             return None
         type_name = metadata.get("typeName", "")
         if type_name.__class__ is not str:
@@ -134,7 +138,7 @@ class _Outliner:
         if authored.is_semantic and self._is_new(prim):
             self.outline.labelled_prims.append(prim)
         if reason is not None:
-            self._leave_out(path, name, parent, reason)
+            self._leave_out((name, reason), parent)
             return None
         record = PrimRecord(self.stage, path, name, type_name, self._kind(metadata), parent, known_prim=prim)
         self._fill(record, traits, authored, schemas)
@@ -183,12 +187,15 @@ class _Outliner:
             return False
         return bool(read_value(prim, UsdGeom.Tokens.visibility, self.time, str) == UsdGeom.Tokens.invisible)
 
-    def _leave_out(self, path: str, name: str, parent: PrimRecord, reason: str) -> None:
+    def _leave_out(self, child: tuple[str, str], parent: PrimRecord) -> None:
+        """Record a child that is pruned, as (name, reason)."""
+        name, reason = child
         self.outline.left_out[reason] += 1
-        self.outline.pruned[path] = reason
+        if reason in _FAULTS:
+            self.outline.faults[f"{parent.path.rstrip('/')}/{name}"] = reason
         if parent.left_out is None:
             parent.left_out = []
-        parent.left_out.append((name, reason))
+        parent.left_out.append(child)
         parent.has_subsets |= reason == _SUBSET
 
     def _add_joint(self, prim: Any, type_name: str) -> None:
@@ -231,9 +238,9 @@ class _Outliner:
         pending = [(first, root)]
         while pending:
             source, copy = pending.pop()
-            for name, reason in source.left_out or ():
+            for pruned in source.left_out or ():
                 self.outline.prim_count += 1
-                self._leave_out(f"{copy.path}/{name}", name, copy, reason)
+                self._leave_out(pruned, copy)
             for child in source.children:
                 self.outline.prim_count += 1
                 pending.append((child, _copy_below(child, copy)))
@@ -326,5 +333,5 @@ def paths_above_endless(outline: Outline) -> frozenset[str]:
     """Return the paths of prims with a point instancer at or below them that contains itself."""
     if not outline.left_out[ENDLESS]:
         return frozenset()
-    endless = (Sdf.Path(path) for path, reason in outline.pruned.items() if reason == ENDLESS)
+    endless = (Sdf.Path(path) for path, reason in outline.faults.items() if reason == ENDLESS)
     return frozenset(prefix.pathString for path in endless for prefix in path.GetPrefixes())
