@@ -3,6 +3,7 @@
 from collections.abc import Iterable, Mapping
 
 from usd2kg.errors import GroundingError
+from usd2kg.garbage import paused_collection
 from usd2kg.grounding.base import Grounder
 from usd2kg.grounding.concepts import add_concepts
 from usd2kg.grounding.context.views import ABBREVIATED_LENGTH, EVIDENCE_GROUPS, NamingRegime, view_objects
@@ -47,7 +48,8 @@ def ground(
     """
     if isinstance(grounder, str):
         grounder = make_grounder(grounder)
-    views = {obj.prim_path: view for obj, view in view_objects(scene, regime, evidence, abbreviated_length)}
+    with paused_collection():
+        views = {obj.prim_path: view for obj, view in view_objects(scene, regime, evidence, abbreviated_length)}
     wanted = list(dict.fromkeys(paths)) if paths is not None else list(views)
     origins = carried or {}
     decided = {path: made for path, made in (decisions or {}).items() if path in views}

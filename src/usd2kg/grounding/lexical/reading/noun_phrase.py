@@ -58,7 +58,7 @@ class NameReader:
         self.read = lru_cache(maxsize=4096)(self._read)
         """(name, names of the prims above, outermost first) → phrase."""
         # Copies differ in their numbers, and most names do not refer to the prims above.
-        self._read_tokens = lru_cache(maxsize=4096)(self._compute_phrase)
+        self._read_tokens = lru_cache(maxsize=16384)(self._compute_phrase)
 
     def _read(self, name: str, parents: tuple[str, ...] = ()) -> NamePhrase:
         tokens = self._content_tokens(self._cut_additions(tokens_of(name)))[: READING.max_words]
