@@ -45,6 +45,7 @@ FORMS: Mapping[str, Form] = {
     "A, shortlist of 8": Form(_SHORT_A, "A, shortlist of 8"),
     "… shuffled 1": Form(replace(_SHORT_A, shuffle_seed=1), "A, shortlist of 8"),
     "… shuffled 2": Form(replace(_SHORT_A, shuffle_seed=2), "A, shortlist of 8"),
+    "… candidates first": Form(replace(_SHORT_A, has_candidates_first=True), "A, shortlist of 8"),
     "… as a tree": Form(replace(_SHORT_A, is_tree=True), "A, shortlist of 8"),
     "… with 8 examples": Form(_SHORT_A, "A, shortlist of 8", examples=8),
     "… 5 samples": Form(replace(_SHORT_A, samples=5), "A, shortlist of 8"),
@@ -53,6 +54,7 @@ FORMS: Mapping[str, Form] = {
     "A, all classes": Form(_A, "A, shortlist of 8"),
     "A, all classes, shuffled 1": Form(replace(_A, shuffle_seed=1), "A, all classes"),
     "A, all classes, tree": Form(replace(_A, is_tree=True), "A, all classes"),
+    "A, all classes, shuffled 2": Form(replace(_A, shuffle_seed=2), "A, all classes"),
     "B, all classes": Form(_B, "A, all classes"),
     "B, all classes, 5 a prompt": Form(replace(_B, objects_per_prompt=5), "B, all classes"),
 }

@@ -264,6 +264,29 @@ def test_shortlist_limits_the_offered_classes(run: Run, kitchen: Path):
     assert all("DesignedArtifact" in names and len(names) < 25 for names in offered)
 
 
+def test_threads_are_those_of_the_weights(run: Run, kitchen: Path, monkeypatch: pytest.MonkeyPatch):
+    opened = []
+
+    def open_weights(model: str, *, threads: int) -> object:
+        opened.append((model, threads))
+        raise GroundingError("no weights")
+
+    monkeypatch.setattr("usd2kg.grounding.llm.factory.open_local", open_weights)
+    assert "no weights" in run("ground", kitchen, "--grounder", "llm-A:gguf:m.gguf", "--threads", "4").err
+    assert opened == [("gguf:m.gguf", 4)]
+
+
+def test_the_best_candidates_come_first(run: Run, kitchen: Path):
+    with serve(openai_reply(cup())) as server:
+        model = f"llm-B:openai:test@{server.url}/v1"
+        refused = run("ground", kitchen, "--grounder", model, "--candidates-first")
+        run("ground", kitchen, "--grounder", model, "--shortlist", "3", "--candidates-first")
+        schemas = [received.body["response_format"]["json_schema"]["schema"] for received in server.received]
+    assert "expected --shortlist K with --candidates-first" in refused.err
+    offered = [schema["properties"]["1"]["properties"]["class"]["enum"] for schema in schemas]
+    assert "Cup" in [names[0] for names in offered]
+
+
 def test_replays_a_recording_without_key_or_server(run: Run, kitchen: Path, monkeypatch: pytest.MonkeyPatch):
     with serve(openai_reply(cup())) as server:
         model = f"llm-B:openai:test@{server.url}/v1"

@@ -203,6 +203,16 @@ class TestClasses:
         assert batches[0].request.system == batches[1].request.system
         assert "Crockery" not in batches[0].request.system + batches[0].request.user
 
+    def test_lists_candidates_first_by_their_rank(self) -> None:
+        options = PromptOptions(has_candidates_first=True)
+        first, *_ = build_requests(VIEWS, TBOX, options, [[KNIFE, CUP, ARTIFACT], [CUP], []])
+        assert [line.split()[0] for line in class_lines(first.request.user)] == ["Knife", "Cup", "DesignedArtifact"]
+        assert list(first.classes.values()) == [KNIFE, CUP, ARTIFACT]
+
+    def test_two_orders_are_refused(self) -> None:
+        with pytest.raises(GroundingError, match="leave out --shuffle or --candidates-first"):
+            PromptOptions(has_candidates_first=True, shuffle_seed=1)
+
     def test_prefixes_shared_class_names(self) -> None:
         tbox = make_tbox(
             make_class("Cup", base=SOMA),

@@ -69,6 +69,7 @@ class RequestLimits(OptionBundle):
     concurrency: Annotated[
         int, Option("--concurrency", min=1, max=64, help="Prompts in progress at the same time.")
     ] = 4
+    threads: Annotated[int, Option("--threads", min=1, max=1024, help="Processor threads of gguf:FILE.")] = 1
     requests_per_minute: Annotated[
         int | None, Option("--requests-per-minute", min=1, help="Requests per minute; default: no limit.")
     ] = None
@@ -100,6 +101,7 @@ class RequestLimits(OptionBundle):
             price=self.price,
             budget=self.dollars,
             concurrency=self.concurrency,
+            threads=self.threads,
             requests_per_minute=self.requests_per_minute,
             completions=self.completions,
             is_replayed=self.replay,
@@ -172,6 +174,10 @@ class ModelOptions(OptionBundle):
         int | None,
         Option("--shortlist", min=1, help="Number of classes to offer, by the lexical grounder's rank; default: all."),
     ] = None
+    candidates_first: Annotated[
+        bool,
+        Option("--candidates-first", help="List the classes of --shortlist by rank; default: in alphabetical order."),
+    ] = False
     cascade: Annotated[
         float | None,
         Option(
@@ -225,6 +231,7 @@ class ModelOptions(OptionBundle):
             has_more_evidence=self.more_evidence,
             shuffle_seed=self.shuffle,
             shortlist=self.shortlist,
+            has_candidates_first=self.candidates_first,
             samples=self.samples,
             first_sample=self.first_sample,
             temperature=self.temperature,

@@ -57,7 +57,7 @@ def list_classes(
     tbox: TBox, names: Mapping[ClassIRI, str], offered: Mapping[ClassIRI, Any], options: PromptOptions
 ) -> OfferedClasses:
     """Return the offered classes as text, alphabetically or in the order and form of `options`."""
-    order = sorted(offered, key=lambda iri: names[iri])
+    order = list(offered) if options.has_candidates_first else sorted(offered, key=lambda iri: names[iri])
     if options.shuffle_seed is not None:
         random.Random(options.shuffle_seed).shuffle(order)
     parents = {iri: _parents(tbox, iri, offered) for iri in order}

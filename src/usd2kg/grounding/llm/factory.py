@@ -52,6 +52,8 @@ class LLMSettings:
     """Include labels, documentation, asset, materials and parts, which the study omits."""
     shuffle_seed: int | None = None
     """Seed of a random order of the classes; None for alphabetical order."""
+    has_candidates_first: bool = False
+    """List the classes of a shortlist by their rank instead of alphabetically."""
     shortlist: int | None = None
     """Number of candidates of the lexical grounder to offer for each object; None for all classes."""
     samples: int = 1
@@ -68,6 +70,8 @@ class LLMSettings:
     """US dollars after which no prompt is sent."""
     concurrency: int = LIMITS.concurrency
     """Prompts in flight at the same time."""
+    threads: int = 1
+    """Processor threads of a model in this process; they do not affect its answers."""
     requests_per_minute: int | None = None
     calibration: Path | None = None
     """File of a `PlattScaling` for the confidences; None for none."""
@@ -188,6 +192,7 @@ def _prompt_options(settings: LLMSettings) -> PromptOptions:
         is_thinking=settings.is_thinking,
         has_more_evidence=settings.has_more_evidence,
         shuffle_seed=settings.shuffle_seed,
+        has_candidates_first=settings.has_candidates_first,
         temperature=default if settings.temperature is None else settings.temperature,
     )
 
@@ -245,7 +250,7 @@ def _open_client(settings: LLMSettings, stack: ExitStack) -> tuple[Client, Traff
     if settings.is_replayed:
         return _OfflineClient(settings.model), Traffic()
     if is_local_model(settings.model):
-        return stack.enter_context(open_local(settings.model)), Traffic()
+        return stack.enter_context(open_local(settings.model, threads=settings.threads)), Traffic()
     client = make_client(settings.model, requests_per_minute=settings.requests_per_minute)
     return stack.enter_context(client), client.traffic
 

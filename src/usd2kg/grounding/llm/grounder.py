@@ -97,12 +97,17 @@ class LLMGrounder:
             scaling: converts confidences to probabilities; None leaves them unchanged.
 
         Raises:
-            GroundingError: `samples` is below 1, or above 1 at temperature 0.
+            GroundingError: `samples` is below 1, or above 1 at temperature 0; or candidates are to be listed first,
+                but all classes are offered.
         """
         if samples < 1:
             raise GroundingError(f"{samples} samples of each prompt; expected 1 or more")
         if samples > 1 and options.temperature == 0:
             raise GroundingError(f"{samples} samples at temperature 0 are all the same; expected a temperature above 0")
+        if options.has_candidates_first and shortlist is None:
+            raise GroundingError(
+                "all classes are offered and no candidates; expected --shortlist K with --candidates-first"
+            )
         self._client, self._options = client, options
         self._shares_answers, self._shortlist, self._workers = shares_answers, shortlist, workers
         self._samples, self._first_sample = samples, first_sample
@@ -150,6 +155,7 @@ class LLMGrounder:
             "thinking": str(self._options.is_thinking).lower(),
             "temperature": f"{self._options.temperature:g}",
             **({"shortlist": str(self._shortlist)} if self._shortlist is not None else {}),
+            **({"order": "candidates first"} if self._options.has_candidates_first else {}),
             **({"samples": str(self._samples)} if self._samples > 1 else {}),
             **({"first_sample": str(self._first_sample)} if self._first_sample else {}),
             **({"examples": str(len(self._examples))} if self._examples else {}),

@@ -12,10 +12,16 @@ __all__ = ["group_similar_views", "make_shortlists", "signature_of"]
 
 
 def make_shortlists(views: Sequence[ObjectView], tbox: TBox, size: int) -> list[list[ClassIRI]]:
-    """Return for each view the best `size` candidates of the lexical grounder, their superclasses, and the roots."""
+    """Return for each view the best `size` candidates of the lexical grounder, their superclasses, and the roots.
+
+    The candidates come first, the best one before the others, then the superclasses and the roots.
+    """
     predictions = LexicalGrounder().ground_views([("", view) for view in views], tbox)
     likely = [[candidate.class_iri for candidate in prediction.candidates[:size]] for prediction in predictions]
-    return [sorted({*tbox.roots, *(up for iri in iris for up in tbox.closure(iri))}) for iris in likely]
+    return [
+        list(dict.fromkeys([*iris, *(up for iri in iris for up in sorted(tbox.closure(iri))), *tbox.roots]))
+        for iris in likely
+    ]
 
 
 def group_similar_views(views: Sequence[ObjectView], options: PromptOptions) -> list[list[int]]:

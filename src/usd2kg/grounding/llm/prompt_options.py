@@ -41,7 +41,7 @@ class PromptOptions:
     """Strategy and format of the prompts.
 
     Raises:
-        GroundingError: `objects_per_prompt` is below 1.
+        GroundingError: `objects_per_prompt` is below 1, or two orders of the classes are named.
     """
 
     strategy: Strategy = Strategy.CONTEXT
@@ -49,6 +49,8 @@ class PromptOptions:
     """List the classes as a tree instead of alphabetically."""
     shuffle_seed: int | None = None
     """Seed of a random order of the classes, in a tree of the subclasses of each class; None for alphabetical order."""
+    has_candidates_first: bool = False
+    """List the classes of a shortlist by their rank, then their superclasses and the roots."""
     objects_per_prompt: int = 1
     max_siblings: int = LIMITS.max_siblings
     """Sibling names in a description; the others are counted."""
@@ -62,3 +64,8 @@ class PromptOptions:
     def __post_init__(self) -> None:
         if self.objects_per_prompt < 1:
             raise GroundingError(f"{self.objects_per_prompt} objects in a prompt; expected 1 or more")
+        if self.has_candidates_first and self.shuffle_seed is not None:
+            raise GroundingError(
+                "the classes of a prompt cannot be shuffled and have the candidates first; "
+                "expected one order: leave out --shuffle or --candidates-first"
+            )

@@ -19,6 +19,7 @@ class FakeXllamacpp(ModuleType):
     """The module. Its tokens are those of `FakeTokens`, and the marks of the template are control tokens."""
 
     __version__ = "0.0"
+    llama_flash_attn_type = SimpleNamespace(LLAMA_FLASH_ATTN_TYPE_DISABLED="no flash attention")
 
     def __init__(
         self,

@@ -142,11 +142,13 @@ class TestOpen:
 
     def test_uses_the_prebuilt_library_otherwise(self, tmp_path: Path, monkeypatch: pytest.MonkeyPatch):
         monkeypatch.setitem(sys.modules, "llama_cpp", None)
-        monkeypatch.setitem(sys.modules, "xllamacpp", FakeXllamacpp(cups, "Cup", "Knife"))
+        library = FakeXllamacpp(cups, "Cup", "Knife")
+        monkeypatch.setitem(sys.modules, "xllamacpp", library)
         path = tmp_path / "model.gguf"
         path.write_bytes(b"GGUF")
-        with open_local(f"gguf:{path}") as client:
+        with open_local(f"gguf:{path}", threads=2) as client:
             assert client.complete(REQUEST).text == ANSWER
+        assert library.servers[0].settings.cpuparams.n_threads == 2
 
     def test_reports_the_missing_extra(self, monkeypatch: pytest.MonkeyPatch):
         monkeypatch.setitem(sys.modules, "llama_cpp", None)

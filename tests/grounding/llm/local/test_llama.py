@@ -20,6 +20,7 @@ class FakeLibrary:
 
     __version__ = "0.0"
     llama_token = ctypes.c_int32
+    LLAMA_FLASH_ATTN_TYPE_DISABLED = 0
 
     def __init__(self, *, is_readable: bool = True, is_recurrent: bool = False, has_memory: bool = True) -> None:
         self.is_readable, self.is_recurrent, self.has_memory = is_readable, is_recurrent, has_memory
@@ -76,6 +77,7 @@ class FakeLibrary:
         if not self.has_memory:
             return None
         assert "context" not in self.alive and settings.n_threads == settings.n_threads_batch == 3
+        assert settings.flash_attn_type == self.LLAMA_FLASH_ATTN_TYPE_DISABLED
         self.alive.add("context")
         self.contexts.append(settings.n_ctx)
         self.held = []

@@ -148,6 +148,7 @@ class TestServer:
         settings = library.servers[0].settings
         assert (settings.model.path, settings.n_parallel, settings.cpuparams.n_threads) == (str(weights), 1, 3)
         assert (settings.n_batch, settings.n_ubatch, settings.cache_ram_mib) == (512, 512, 0)
+        assert settings.flash_attn_type == "no flash attention"
 
     def test_answers_nobody_without_its_key(self, library: FakeXllamacpp, model: ServerModel):
         server = library.servers[0]

@@ -127,6 +127,8 @@ class LlamaServer:
         # The cache keeps exactly the last request: no copies of earlier ones, and all of a sliding window.
         settings.cache_ram_mib, settings.n_ctx_checkpoints, settings.swa_full = 0, 0, True
         settings.fit_params = False
+        # Flash attention of llama.cpp on processors takes twice the time for a short text after a long cached one.
+        settings.flash_attn_type = self._library.llama_flash_attn_type.LLAMA_FLASH_ATTN_TYPE_DISABLED
         # No messages of llama.cpp.
         settings.verbosity = -1
         return settings
