@@ -53,6 +53,9 @@ def test_objects_that_the_selection_misses_are_wrong_end_to_end(run, write_stage
     text = run("eval", "run", scene, "--gold", gold).out
     assert re.search(r"exact match end to end % +50\.0 ", text)
     assert re.search(r"HF1\) +1\.000 .*\n  end to end +0\.500 ", text)
+    assert run("eval", "run", scene, "--gold", gold, "-o", tmp_path / "run.json").code == 0
+    compared = run("eval", "compare", tmp_path / "run.json", tmp_path / "run.json")
+    assert compared.out.startswith("A  100.0 % (50.0 % end to end)  lexical, semantic names")
 
 
 def test_run_prints_wrong_answers_with_reasons(run, room: Path, gold: Path) -> None:

@@ -412,6 +412,9 @@ def test_scores_tiers_and_calibrates_a_model(run: Run, write_stage, tmp_path: Pa
     assert "fitted on 24 answers" in fitted.err
     again = run("ground", scene, *model, "--replay", "--calibration", "calibration.json", "--format", "json")
     assert json.loads(again.out)["is_calibrated"] is True
+    Path("other.json").write_text(json.dumps({**data, "settings": {**data["settings"], "model": "openai:other"}}))
+    mixed = run("eval", "calibrate", "alone.json", "other.json", "-o", "mixed.json")
+    assert (mixed.code, "llm, openai:other, strategy A, semantic names" in mixed.err) == (2, True)
 
 
 class TestAlignment:

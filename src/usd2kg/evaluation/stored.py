@@ -19,8 +19,10 @@ class StoredRun:
     source: str
     ontology_hash: str
     description: str
-    """Grounder, naming regime and evidence in one line."""
+    """Grounder, its language model and strategy if any, naming regime and evidence in one line."""
     scores: tuple[Score, ...]
+    missed: frozenset[str]
+    """Prim paths of the labelled objects that the object selection misses."""
 
 
 def read_run(path: Path) -> StoredRun:
@@ -35,14 +37,21 @@ def read_run(path: Path) -> StoredRun:
         return StoredRun(
             source=str(path),
             ontology_hash=data["ontology_hash"],
-            description=f"{data['grounder']}, {settings['regime']} names, evidence {settings['evidence']}",
+            description=f"{_grounder(data)}, {settings['regime']} names, evidence {settings['evidence']}",
             scores=tuple(_score(item) for item in data["scores"]),
+            missed=frozenset(data["selection"]["missed"]),
         )
     except (OSError, ValueError, KeyError, TypeError, RecursionError) as error:
         raise EvaluationError(
             f"{path}: cannot be read as a run ({type(error).__name__}: {error}); "
             "expected JSON written by usd2kg eval run --output"
         ) from error
+
+
+def _grounder(data: dict[str, Any]) -> str:
+    settings = data["settings"]
+    asked = f", {settings['model']}, strategy {settings['strategy']}" if "model" in settings else ""
+    return f"{data['grounder']}{asked}"
 
 
 def _score(item: dict[str, Any]) -> Score:

@@ -1,8 +1,9 @@
 """usd2kg eval calibrate and eval compare: calibration and comparison of stored runs."""
 
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
-from typing import Annotated, Any
+from typing import TYPE_CHECKING, Annotated, Any
 
 from typer import Argument, Option
 
@@ -10,6 +11,10 @@ from usd2kg.cli.options.common import JsonOutput
 from usd2kg.cli.output import emit, format_optional, notify, print_json
 from usd2kg.cli.text_table import format_table
 from usd2kg.errors import EvaluationError
+
+if TYPE_CHECKING:
+    from usd2kg.evaluation.score import Score
+    from usd2kg.evaluation.stored import StoredRun
 
 __all__ = ["calibrate_command", "compare_command"]
 
@@ -71,8 +76,8 @@ def compare_command(
     differing = [(x, y) for x, y in pairs if x.is_exact != y.is_exact]
     data: dict[str, Any] = {
         "n": len(pairs),
-        "first": {"run": a.description, "ema": 100 * sum(x.is_exact for x, _ in pairs) / len(pairs)},
-        "second": {"run": b.description, "ema": 100 * sum(y.is_exact for _, y in pairs) / len(pairs)},
+        "first": _ema_json(a, [x for x, _ in pairs]),
+        "second": _ema_json(b, [y for _, y in pairs]),
         "only_first": test.only_first,
         "only_second": test.only_second,
         "p_value": test.p_value,
@@ -82,13 +87,25 @@ def compare_command(
         print_json(data)
         return
     head = (
-        f"A  {data['first']['ema']:.1f} %  {a.description}\nB  {data['second']['ema']:.1f} %  {b.description}\n"
+        f"A  {_ema_text(data['first'])}  {a.description}\nB  {_ema_text(data['second'])}  {b.description}\n"
         f"{data['n']} objects; only A right: {test.only_first}, only B right: {test.only_second}; "
         f"McNemar's exact p {_p_value_text(test.p_value)}\n"
     )
     names = [[local_name(iri) if iri else None for iri in (x.target, x.answer, y.answer)] for x, y in differing]
     rows = [(x.id, *row) for (x, _), row in zip(differing, names, strict=True)]
     emit(head + (format_table(("differs", "gold", "A", "B"), rows) if rows else ""))
+
+
+def _ema_json(run: "StoredRun", scores: Sequence["Score"]) -> dict[str, Any]:
+    """Return the exact matches in percent, also with the objects that the selection misses counted as wrong."""
+    exact = [score.id for score in scores if score.is_exact]
+    selected = [path for path in exact if path not in run.missed]
+    share = 100 / len(scores)
+    return {"run": run.description, "ema": share * len(exact), "end_to_end_ema": share * len(selected)}
+
+
+def _ema_text(data: Mapping[str, Any]) -> str:
+    return f"{data['ema']:.1f} % ({data['end_to_end_ema']:.1f} % end to end)"
 
 
 def _p_value_text(p: float) -> str:
