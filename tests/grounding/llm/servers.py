@@ -284,6 +284,27 @@ def _openai_logprobs(tokens: Sequence[Token]) -> dict:
     return {"content": [describe(*token) for token in tokens], "refusal": None}
 
 
+def openai_call(arguments: str, *, finish: str = "tool_calls") -> Reply:
+    """Return a streamed chat completion that calls a tool, as vLLM and Ollama send it."""
+    head = {"id": "c1", "object": "chat.completion.chunk", "created": 1, "model": "m"}
+
+    def chunk(delta: dict, reason: str | None = None) -> str:
+        return sse({**head, "choices": [{"index": 0, "delta": delta, "finish_reason": reason}]})
+
+    def events() -> Iterator[str]:
+        function = {"name": "answer", "arguments": ""}
+        yield chunk(
+            {"role": "assistant", "tool_calls": [{"index": 0, "id": "t", "type": "function"} | {"function": function}]}
+        )
+        for piece in pieces(arguments):
+            yield chunk({"tool_calls": [{"index": 0, "function": {"arguments": piece}}]})
+        yield chunk({}, finish)
+        yield sse({**head, "choices": [], "usage": OPENAI_USAGE})
+        yield "data: [DONE]\n\n"
+
+    return Reply(events=events)
+
+
 def gemini_reply(text: str, *, finish: str = "STOP", thinking: str = "") -> Reply:
     """Return a response of generateContent with 100 input tokens, 60 of them cached, 7 answer and 5 thought tokens."""
     thoughts = [{"text": thinking, "thought": True}] if thinking else []

@@ -19,27 +19,6 @@ XGRAMMAR = servers.refuse(400, "The provided JSON schema contains features not s
 LLAMA = servers.refuse(400, "Failed to parse grammar")
 
 
-def tool_reply(arguments: str, *, finish: str = "tool_calls") -> servers.Reply:
-    """Return a streamed chat completion that calls a tool, as vLLM and Ollama send it."""
-    head = {"id": "c1", "object": "chat.completion.chunk", "created": 1, "model": "m"}
-
-    def chunk(delta: dict, reason: str | None = None) -> str:
-        return servers.sse({**head, "choices": [{"index": 0, "delta": delta, "finish_reason": reason}]})
-
-    def events() -> Iterator[str]:
-        function = {"name": "answer", "arguments": ""}
-        yield chunk(
-            {"role": "assistant", "tool_calls": [{"index": 0, "id": "t", "type": "function"} | {"function": function}]}
-        )
-        for piece in servers.pieces(arguments):
-            yield chunk({"tool_calls": [{"index": 0, "function": {"arguments": piece}}]})
-        yield chunk({}, finish)
-        yield servers.sse({**head, "choices": [], "usage": servers.OPENAI_USAGE})
-        yield "data: [DONE]\n\n"
-
-    return servers.Reply(events=events)
-
-
 def form_of(body: dict) -> str:
     if "response_format" in body:
         return body["response_format"]["type"]
@@ -58,8 +37,8 @@ def ask_twice(*replies: servers.Reply) -> tuple[Completion, list[dict]]:
     [
         ([servers.openai_reply(ANSWER)], ["json_schema", "json_schema"]),
         ([NO_SCHEMA, servers.openai_reply(ANSWER)], ["json_schema", "json_object", "json_object"]),
-        ([NO_SCHEMA, NO_OBJECT, tool_reply(ANSWER)], ["json_schema", "json_object", "tool", "tool"]),
-        ([XGRAMMAR, XGRAMMAR, tool_reply(ANSWER)], ["json_schema", "json_object", "tool", "tool"]),
+        ([NO_SCHEMA, NO_OBJECT, servers.openai_call(ANSWER)], ["json_schema", "json_object", "tool", "tool"]),
+        ([XGRAMMAR, XGRAMMAR, servers.openai_call(ANSWER)], ["json_schema", "json_object", "tool", "tool"]),
         (
             [NO_SCHEMA, NO_OBJECT, NO_TOOLS, servers.openai_reply(ANSWER)],
             ["json_schema", "json_object", "tool", "text", "text"],
@@ -86,7 +65,7 @@ def test_takes_the_first_form_that_is_not_rejected_and_keeps_it(replies: list[se
 
 
 def test_the_tool_must_be_called_with_the_enum():
-    _, bodies = ask_twice(NO_SCHEMA, NO_OBJECT, tool_reply(ANSWER))
+    _, bodies = ask_twice(NO_SCHEMA, NO_OBJECT, servers.openai_call(ANSWER))
 
     (tool,) = bodies[-1]["tools"]
     assert bodies[-1]["tool_choice"] == "required" or bodies[-1]["tool_choice"]["function"]["name"] == "answer"
@@ -102,13 +81,13 @@ def test_plain_text_has_the_schema_in_the_instructions():
 
 
 def test_a_truncated_call_is_a_truncated_completion():
-    completion, _ = ask_twice(NO_SCHEMA, NO_OBJECT, tool_reply('{"class": "Cu', finish="length"))
+    completion, _ = ask_twice(NO_SCHEMA, NO_OBJECT, servers.openai_call('{"class": "Cu', finish="length"))
 
     assert (completion.text, completion.finish) == ('{"class": "Cu', Finish.LENGTH)
 
 
 def test_a_call_without_end_is_cut_off():
-    completion, _ = ask_twice(NO_SCHEMA, NO_OBJECT, tool_reply('{"class": "' + "Cup, " * 2000))
+    completion, _ = ask_twice(NO_SCHEMA, NO_OBJECT, servers.openai_call('{"class": "' + "Cup, " * 2000))
 
     assert completion.finish is Finish.DEGENERATE
 
