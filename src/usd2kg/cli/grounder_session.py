@@ -15,6 +15,7 @@ from usd2kg.errors import GroundingError, SceneError
 if TYPE_CHECKING:
     from usd2kg.grounding import CascadeGrounder, Decision, DecisionOrigin, Grounder, Grounding, ObjectView
     from usd2kg.grounding.llm.grounder import LLMGrounder
+    from usd2kg.grounding.llm.prompts import ObjectPictures
     from usd2kg.ontology import ClassIRI, TBox
     from usd2kg.scene import ReadOptions, Scene
 
@@ -177,7 +178,7 @@ def _open_model(
             asked.settings(options.grounder),
             is_dry=asked.requests.dry_run,
             examples=choose_examples(scene, decisions, asked.examples) if asked.examples else (),
-            picture=_renderer(source, reading) if asked.thumbnails else None,
+            pictures=_renderer(source, reading) if asked.thumbnails else None,
             progress=progress.update,
             reporting=Reporting(progress.say, progress.show),
         ) as model,
@@ -186,15 +187,16 @@ def _open_model(
         yield model
 
 
-def _renderer(source: Path, reading: "ReadOptions") -> Callable[[str], bytes | None]:
-    """Return a function from prim path to PNG, or to None for an instance or an object without geometry."""
+def _renderer(source: Path, reading: "ReadOptions") -> "Callable[[str], ObjectPictures | None]":
+    """Return a function from prim path to pictures, or to None for an instance or an object without geometry."""
+    from usd2kg.grounding.llm.prompts import ObjectPictures  # noqa: PLC0415
     from usd2kg.render import Renderer  # noqa: PLC0415
 
     renderer = Renderer(source, reading)
 
-    def render(path: str) -> bytes | None:
+    def render(path: str) -> ObjectPictures | None:
         try:
-            return renderer.render_object(path)
+            return ObjectPictures(renderer.render_object(path), renderer.render_object(path, in_context=True))
         except SceneError:
             return None
 

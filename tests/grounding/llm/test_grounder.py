@@ -24,6 +24,7 @@ from usd2kg.grounding.llm.grouping import group_similar_views
 from usd2kg.grounding.llm.metered_client import Budget, MeteredClient, Spending
 from usd2kg.grounding.llm.prices import Tariff, parse_price
 from usd2kg.grounding.llm.prompt_options import PromptOptions, Strategy
+from usd2kg.grounding.llm.prompts import ObjectPictures
 from usd2kg.ontology import TBox
 from usd2kg.scene import Box, Scene
 
@@ -417,13 +418,13 @@ def test_requests_each_picture_once(home_tbox: TBox):
     model = Model(always("Cup"))
     paths: list[str] = []
 
-    def picture(path: str) -> bytes | None:
+    def pictures(path: str) -> ObjectPictures | None:
         paths.append(path)
-        return b"png" if path.endswith("Mug") else None
+        return ObjectPictures(b"png", b"png in place") if path.endswith("Mug") else None
 
-    ground(kitchen("Mug", "Vase"), home_tbox, make_grounder(model, PromptOptions(), picture=picture))
+    ground(kitchen("Mug", "Vase"), home_tbox, make_grounder(model, PromptOptions(), pictures=pictures))
     assert sorted(paths) == ["/World/Mug", "/World/Vase"]
-    assert sorted(request.images for request in model.requests) == [(), (b"png",)]
+    assert sorted(request.images for request in model.requests) == [(), (b"png", b"png in place")]
 
 
 class TestByConcept:

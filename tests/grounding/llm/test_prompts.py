@@ -21,7 +21,7 @@ from usd2kg.grounding.llm.class_lists import name_classes
 from usd2kg.grounding.llm.completion import Request
 from usd2kg.grounding.llm.prompt_options import PromptOptions, Strategy
 from usd2kg.grounding.llm.prompt_text import estimate_tokens, quote
-from usd2kg.grounding.llm.prompts import Batch, Example, build_requests
+from usd2kg.grounding.llm.prompts import Batch, Example, ObjectPictures, build_requests
 from usd2kg.ontology import TBox
 
 LETTERS = (Strategy.NAME_ONLY, Strategy.CONTEXT, Strategy.CHAIN_OF_THOUGHT)
@@ -335,12 +335,13 @@ class TestExamples:
 class TestPictures:
     def test_are_sent_with_the_prompt_about_their_object(self) -> None:
         options = PromptOptions(objects_per_prompt=2)
-        first, second = build_requests(VIEWS, TBOX, options, pictures={1: b"one", 2: b"two"})
-        assert (first.request.images, second.request.images) == ((b"one",), (b"two",))
+        pictures = {1: ObjectPictures(b"one", b"one there"), 2: ObjectPictures(b"two", b"two there")}
+        first, second = build_requests(VIEWS, TBOX, options, pictures=pictures)
+        assert (first.request.images, second.request.images) == ((b"one", b"one there"), (b"two", b"two there"))
         rows = first.request.user.split("object 2")
         assert "picture" not in rows[0]
-        assert "picture: image 1" in rows[1]
-        assert "picture: image 1" in second.request.user
+        assert "pictures: image 1 (alone), image 2 (coloured, in its grey surroundings)" in rows[1]
+        assert "pictures: image 1 (alone)" in second.request.user
 
 
 def test_estimates_tokens_by_bytes() -> None:

@@ -166,7 +166,7 @@ class ModelOptions(OptionBundle):
     more_evidence: Annotated[
         bool, Option("--more-evidence", help="Add asset, labels, materials, parts and documentation to the prompt.")
     ] = False
-    thumbnails: Annotated[bool, Option("--thumbnails", help="Add pictures of objects to the prompt.")] = False
+    thumbnails: Annotated[bool, Option("--thumbnails", help="Add two pictures of each object to the prompt.")] = False
     shuffle: Annotated[
         int | None, Option("--shuffle", help="Seed to shuffle the classes in the prompt; default: not shuffled.")
     ] = None

@@ -19,7 +19,7 @@ from usd2kg.grounding.llm.local.client import is_local_model, open_local
 from usd2kg.grounding.llm.metered_client import Budget, MeteredClient, Spending
 from usd2kg.grounding.llm.prices import Tariff, discount_batch, find_tariff, parse_price
 from usd2kg.grounding.llm.prompt_options import PromptOptions, Strategy
-from usd2kg.grounding.llm.prompts import Example
+from usd2kg.grounding.llm.prompts import Example, ObjectPictures
 from usd2kg.grounding.llm.settings import CONCEPTS, SAMPLING
 from usd2kg.grounding.llm.traffic import Traffic
 from usd2kg.grounding.platt_scaling import read_scaling
@@ -91,7 +91,7 @@ def open_llm_grounder(
     *,
     is_dry: bool = False,
     examples: Sequence[Example] = (),
-    picture: Callable[[str], bytes | None] | None = None,
+    pictures: Callable[[str], ObjectPictures | None] | None = None,
     progress: Callable[[int, int], None] | None = None,
     reporting: Reporting | None = None,
 ) -> Iterator[LLMGrounder]:
@@ -101,7 +101,7 @@ def open_llm_grounder(
         settings: the model, the form of its prompts, and the limits of the run.
         is_dry: plan prompts without connecting to a model.
         examples: objects with known classes, shown in each prompt.
-        picture: returns the PNG picture of a prim; None to send no pictures.
+        pictures: returns the pictures of a prim, or None if it has none; None to send no pictures.
         progress: called with the number of objects that are done and the total.
         reporting: what the user sees of batch jobs; None for log messages.
 
@@ -111,7 +111,7 @@ def open_llm_grounder(
     """
     with ExitStack() as stack:
         client = _open_metered_client(settings, stack, reporting, is_dry=is_dry)
-        yield _make_grounder(settings, client, examples, picture, progress)
+        yield _make_grounder(settings, client, examples, pictures, progress)
 
 
 @contextmanager
@@ -149,7 +149,7 @@ def _make_grounder(
     settings: LLMSettings,
     client: MeteredClient,
     examples: Sequence[Example] = (),
-    picture: Callable[[str], bytes | None] | None = None,
+    pictures: Callable[[str], ObjectPictures | None] | None = None,
     progress: Callable[[int, int], None] | None = None,
 ) -> LLMGrounder:
     return LLMGrounder(
@@ -162,7 +162,7 @@ def _make_grounder(
         samples=settings.samples,
         first_sample=settings.first_sample,
         examples=examples,
-        picture=picture,
+        pictures=pictures,
         scaling=read_scaling(settings.calibration) if settings.calibration is not None else None,
         progress=progress,
     )

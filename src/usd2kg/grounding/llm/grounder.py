@@ -24,7 +24,7 @@ from usd2kg.grounding.llm.grouping import group_similar_views, make_shortlists
 from usd2kg.grounding.llm.limits import LIMITS
 from usd2kg.grounding.llm.metered_client import MeteredClient, NotAskedError, RunReport
 from usd2kg.grounding.llm.prompt_options import PromptOptions, Strategy
-from usd2kg.grounding.llm.prompts import Batch, Example, build_requests
+from usd2kg.grounding.llm.prompts import Batch, Example, ObjectPictures, build_requests
 from usd2kg.grounding.llm.voting import ScoredAnswer, vote
 from usd2kg.grounding.model import Prediction, Status
 from usd2kg.grounding.platt_scaling import PlattScaling
@@ -75,7 +75,7 @@ class LLMGrounder:
         samples: int = 1,
         first_sample: int = 0,
         examples: Sequence[Example] = (),
-        picture: Callable[[str], bytes | None] | None = None,
+        pictures: Callable[[str], ObjectPictures | None] | None = None,
         progress: Callable[[int, int], None] | None = None,
         scaling: PlattScaling | None = None,
     ) -> None:
@@ -92,7 +92,7 @@ class LLMGrounder:
             samples: completions per prompt; the class that most of them name is chosen.
             first_sample: number of the first sample; other numbers are not served from the cache of earlier ones.
             examples: objects with known classes, shown in each prompt.
-            picture: returns the PNG picture of a prim, or None if it has none; None sends no pictures.
+            pictures: returns the pictures of a prim, or None if it has none; None sends no pictures.
             progress: called with the number of objects that are done and the total, after each prompt.
             scaling: converts confidences to probabilities; None leaves them unchanged.
 
@@ -111,7 +111,7 @@ class LLMGrounder:
         self._client, self._options = client, options
         self._shares_answers, self._shortlist, self._workers = shares_answers, shortlist, workers
         self._samples, self._first_sample = samples, first_sample
-        self._examples, self._picture, self._progress = examples, picture, progress
+        self._examples, self._pictures_of, self._progress = examples, pictures, progress
         self.tariff = client.tariff
         self._scaling = scaling
         self.concept_answers: list[ConceptAnswer] = []
@@ -159,7 +159,7 @@ class LLMGrounder:
             **({"samples": str(self._samples)} if self._samples > 1 else {}),
             **({"first_sample": str(self._first_sample)} if self._first_sample else {}),
             **({"examples": str(len(self._examples))} if self._examples else {}),
-            **({"pictures": "true"} if self._picture is not None else {}),
+            **({"pictures": "true"} if self._pictures_of is not None else {}),
             **({"shuffle": str(self._options.shuffle_seed)} if self._options.shuffle_seed is not None else {}),
         }
 
@@ -201,11 +201,11 @@ class LLMGrounder:
     def _groups(self, views: Sequence[ObjectView]) -> list[list[int]]:
         return group_similar_views(views, self._options) if self._shares_answers else [[i] for i in range(len(views))]
 
-    def _pictures(self, views: Sequence[tuple[str, ObjectView]]) -> dict[int, bytes]:
-        if self._picture is None:
+    def _pictures(self, views: Sequence[tuple[str, ObjectView]]) -> dict[int, ObjectPictures]:
+        if self._pictures_of is None:
             return {}
-        pictures = ((index, self._picture(path)) for index, (path, _) in enumerate(views))
-        return {index: picture for index, picture in pictures if picture is not None}
+        pictures = ((index, self._pictures_of(path)) for index, (path, _) in enumerate(views))
+        return {index: pair for index, pair in pictures if pair is not None}
 
     def ground_views(self, views: Sequence[tuple[str, ObjectView]], tbox: TBox) -> list[Prediction]:
         """Return one prediction for each (prim path, view); after an interrupt, the remaining ones are failures."""

@@ -6,7 +6,7 @@ instructions declare as data, and objects are identified by numbers. So a name c
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
-from typing import Any
+from typing import Any, NamedTuple
 
 from usd2kg.grounding.context.views import ObjectView
 from usd2kg.grounding.llm.class_lists import list_classes, name_classes
@@ -17,7 +17,7 @@ from usd2kg.grounding.llm.prompt_options import PromptOptions, Strategy
 from usd2kg.grounding.llm.prompt_text import fill_template, read_template
 from usd2kg.ontology import ClassIRI, TBox
 
-__all__ = ["Batch", "Example", "build_requests", "object_schema"]
+__all__ = ["Batch", "Example", "ObjectPictures", "build_requests", "object_schema"]
 
 
 @dataclass(frozen=True, slots=True)
@@ -44,6 +44,14 @@ class Example:
     class_iri: ClassIRI
 
 
+class ObjectPictures(NamedTuple):
+    """The PNG pictures of an object."""
+
+    alone: bytes
+    in_place: bytes
+    """The object in warm colours in its grey surroundings."""
+
+
 def build_requests(
     views: Sequence[ObjectView],
     tbox: TBox,
@@ -51,7 +59,7 @@ def build_requests(
     candidates: Sequence[Sequence[ClassIRI]] | None = None,
     *,
     examples: Sequence[Example] = (),
-    pictures: Mapping[int, bytes] | None = None,
+    pictures: Mapping[int, ObjectPictures] | None = None,
     rows: Sequence[Sequence[str]] | None = None,
 ) -> list[Batch]:
     """Return the requests about all views, grouped by strategy and otherwise in order.
@@ -65,7 +73,7 @@ def build_requests(
             servers can cache.
         examples: objects of the scene with known classes, shown in the system prompt unless their texts may command the
             model.
-        pictures: index in `views` → PNG picture, sent with the prompt about that object.
+        pictures: index in `views` → the pictures that are sent with the prompt about that object.
         rows: the lines about each view; None for those of `describe_object`.
     """
     by_strategy: dict[Strategy, list[int]] = {}
@@ -125,7 +133,7 @@ class _PromptWriter:
         indices: tuple[int, ...],
         lines: Sequence[Sequence[str]],
         candidates: Sequence[Sequence[ClassIRI]],
-        pictures: Sequence[bytes | None],
+        pictures: Sequence[ObjectPictures | None],
     ) -> Batch:
         """Return the request about some objects with the lines about them, candidate classes and pictures."""
         user, offer = "", self._all_classes
@@ -143,19 +151,19 @@ class _PromptWriter:
             max_tokens=options.max_tokens,
             temperature=options.temperature,
             is_thinking=options.is_thinking,
-            images=tuple(picture for picture in pictures if picture is not None),
+            images=tuple(image for pair in pictures if pair is not None for image in pair),
         )
         return Batch(request, indices, offer.classes)
 
 
-def _number_objects(lines: Sequence[Sequence[str]], pictures: Sequence[bytes | None]) -> str:
+def _number_objects(lines: Sequence[Sequence[str]], pictures: Sequence[ObjectPictures | None]) -> str:
     rows = []
     shown = 0
-    for number, (known, picture) in enumerate(zip(lines, pictures, strict=True), start=1):
+    for number, (known, pair) in enumerate(zip(lines, pictures, strict=True), start=1):
         row = [f"object {number}", *(known or ["nothing is known of it"])]
-        if picture is not None:
-            shown += 1
-            row.append(f"picture: image {shown}")
+        if pair is not None:
+            row.append(f"pictures: image {shown + 1} (alone), image {shown + 2} (coloured, in its grey surroundings)")
+            shown += len(pair)
         rows.append("\n".join(row))
     numbers = ", ".join(str(number) for number in range(1, len(lines) + 1))
     return fill_template("objects", objects="\n\n".join(rows), numbers=numbers)
