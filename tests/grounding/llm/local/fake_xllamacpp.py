@@ -19,6 +19,7 @@ class FakeXllamacpp(ModuleType):
     """The module. Its tokens are those of `FakeTokens`, and the marks of the template are control tokens."""
 
     __version__ = "0.0"
+    ggml_backend_dev_type = SimpleNamespace(GGML_BACKEND_DEVICE_TYPE_CPU=0)
     llama_flash_attn_type = SimpleNamespace(LLAMA_FLASH_ATTN_TYPE_DISABLED="no flash attention")
 
     def __init__(
@@ -28,13 +29,18 @@ class FakeXllamacpp(ModuleType):
         is_readable: bool = True,
         has_begin: bool = False,
         memory: int = WINDOW,
+        devices: tuple[int, ...] = (0,),
     ) -> None:
         super().__init__("xllamacpp")
         self.predict, self.is_readable, self.has_begin, self.memory = predict, is_readable, has_begin, memory
+        self.devices = devices
         self.tokens = FakeTokens(*pieces)
         self.controls = {mark: len(self.tokens.pieces) + index for index, mark in enumerate(MARKS)}
         self.size = len(self.tokens.pieces) + len(MARKS)
         self.servers: list[FakeServer] = []
+
+    def get_device_info(self) -> list[dict[str, int]]:
+        return [{"type": kind} for kind in self.devices]
 
     def CommonParams(self) -> SimpleNamespace:  # noqa: N802 - the library's name
         return SimpleNamespace(model=SimpleNamespace(), cpuparams=SimpleNamespace(), cpuparams_batch=SimpleNamespace())

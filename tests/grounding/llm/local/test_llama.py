@@ -70,6 +70,9 @@ class FakeLibrary:
 
     def llama_batch_free(self, batch: SimpleNamespace) -> None: ...
 
+    def llama_supports_gpu_offload(self) -> bool:
+        return False
+
     def llama_context_default_params(self) -> SimpleNamespace:
         return SimpleNamespace()
 

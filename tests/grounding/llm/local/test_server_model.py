@@ -150,6 +150,11 @@ class TestServer:
         assert (settings.n_batch, settings.n_ubatch, settings.cache_ram_mib) == (512, 512, 0)
         assert settings.flash_attn_type == "no flash attention"
 
+    def test_a_graphics_card_may_use_flash_attention(self, weights: Path):
+        library = FakeXllamacpp(knives, devices=(0, 1))
+        ServerModel(library, weights, 1)
+        assert not hasattr(library.servers[0].settings, "flash_attn_type")
+
     def test_answers_nobody_without_its_key(self, library: FakeXllamacpp, model: ServerModel):
         server = library.servers[0]
         assert server.settings.hostnames == ["127.0.0.1"] and len(server.settings.api_keys[0]) >= 32

@@ -111,8 +111,9 @@ class LlamaModel:
             LIMITS.decode_batch_tokens,
         )
         settings.n_threads = settings.n_threads_batch = self._threads
-        # Flash attention of llama.cpp on processors takes twice the time for a short text after a long cached one.
-        settings.flash_attn_type = self._library.LLAMA_FLASH_ATTN_TYPE_DISABLED
+        # On processors, flash attention takes twice the time for a short text after a long cached one.
+        if not self._library.llama_supports_gpu_offload():
+            settings.flash_attn_type = self._library.LLAMA_FLASH_ATTN_TYPE_DISABLED
         self._context = self._library.llama_init_from_model(self._model, settings)
         if not self._context:
             raise GroundingError(

@@ -127,8 +127,10 @@ class LlamaServer:
         # The cache keeps exactly the last request: no copies of earlier ones, and all of a sliding window.
         settings.cache_ram_mib, settings.n_ctx_checkpoints, settings.swa_full = 0, 0, True
         settings.fit_params = False
-        # Flash attention of llama.cpp on processors takes twice the time for a short text after a long cached one.
-        settings.flash_attn_type = self._library.llama_flash_attn_type.LLAMA_FLASH_ATTN_TYPE_DISABLED
+        # On processors, flash attention takes twice the time for a short text after a long cached one.
+        processor = self._library.ggml_backend_dev_type.GGML_BACKEND_DEVICE_TYPE_CPU
+        if all(device["type"] == processor for device in self._library.get_device_info()):
+            settings.flash_attn_type = self._library.llama_flash_attn_type.LLAMA_FLASH_ATTN_TYPE_DISABLED
         # No messages of llama.cpp.
         settings.verbosity = -1
         return settings
