@@ -9,6 +9,7 @@ the table is printed.
 
 import argparse
 import json
+import math
 import time
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import asdict, dataclass, replace
@@ -140,7 +141,10 @@ def ask(grounder: LLMGrounder, model: str, form: str, scene: LabelledScene, coun
     start = time.process_time()
     paths = spaced(scene.paths, count)
     answers = ground(scene.scene, scene.tbox, grounder, paths=paths).by_path
-    usage = grounder.report.usage
+    report = grounder.report
+    usage = report.usage + report.cached_usage
+    # Another form with the same prompts, or an interrupted run, may have stored completions, which take no time here.
+    share = report.completions / max(1, report.completions + report.cached)
     return Outcome(
         model,
         form,
@@ -148,7 +152,7 @@ def ask(grounder: LLMGrounder, model: str, form: str, scene: LabelledScene, coun
         usage.input_tokens,
         usage.cached_tokens,
         usage.output_tokens,
-        time.process_time() - start,
+        (time.process_time() - start) / share if share else math.nan,
         {path: answers[path].class_iri for path in paths},
     )
 

@@ -24,7 +24,7 @@ class Outcome:
     cached_tokens: int
     output_tokens: int
     seconds: float
-    """Processor time."""
+    """Processor time; NaN if all completions were stored."""
     answers: Mapping[str, ClassIRI | None]
     """Prim path → class."""
 
@@ -41,7 +41,8 @@ def print_table(outcomes: Sequence[Outcome], scenes: Sequence[LabelledScene], ba
     print(f"| model | form | n | tokens per object: input, cached | s per object | {' | '.join(names)} ", end="")
     print("| exact % (95 %) | accepted % | HF1 | differs from its base |")
     print(f"{'| --- ' * (9 + len(names))}|")
-    for key in dict.fromkeys((one.model, one.form) for one in outcomes):
+    models = list(dict.fromkeys(one.model for one in outcomes))
+    for key in sorted(dict.fromkeys((one.model, one.form) for one in outcomes), key=lambda key: models.index(key[0])):
         own = answers_of(outcomes, *key, names)
         base = {one.scene: one for one in answers_of(outcomes, key[0], bases.get(key[1], key[1]), names)}
         print(row_of(own, base, scenes))
