@@ -52,6 +52,7 @@ FORMS: Mapping[str, Form] = {
     "… 5 samples": Form(replace(_SHORT_A, samples=5), "A, shortlist of 8"),
     "B, shortlist of 8": Form(replace(_B, shortlist=8), "A, shortlist of 8"),
     "C, shortlist of 8": Form(replace(_B, strategy=Strategy.CHAIN_OF_THOUGHT, shortlist=8), "A, shortlist of 8"),
+    "concept, shortlist of 8": Form(replace(_B, strategy=Strategy.BY_CONCEPT, shortlist=8), "B, shortlist of 8"),
     "A, all classes": Form(_A, "A, shortlist of 8"),
     "A, all classes, shuffled 1": Form(replace(_A, shuffle_seed=1), "A, all classes"),
     "A, all classes, tree": Form(replace(_A, is_tree=True), "A, all classes"),
