@@ -28,7 +28,7 @@ def test_a_negated_kind_excludes(kitchen: GraphStore):
 
 
 def test_a_negation_that_may_belong_to_another_noun_is_refused(kitchen: GraphStore):
-    with pytest.raises(GraphError, match="not"):
+    with pytest.raises(GraphError, match="no piano"):
         ask_offline(kitchen, "what is on the bar table that is not a piano?")
 
 
@@ -36,7 +36,7 @@ def test_on_directly_excludes_what_is_on_another_thing(kitchen: GraphStore):
     assert labels(kitchen, "which apples are on the bar table?")
     found = ask_offline(kitchen, "which apples are directly on the bar table?")
     assert not found.answer.rows
-    assert found.sentence == "No apples are directly on the bar table barTable."
+    assert found.sentence == "There are no apples that are directly on the bar table in this scene."
 
 
 def test_what_is_on_a_table_is_not_on_the_floor(kitchen: GraphStore):

@@ -70,4 +70,4 @@ def test_a_rug_is_under_the_table_that_stands_on_it(flat: GraphStore):
 
 
 def test_a_fridge_is_a_refrigerator(flat: GraphStore):
-    assert [row[0] for row in ask_offline(flat, "which room is the fridge in?").answer.rows] == ["Refrigerator"]
+    assert [row[0] for row in ask_offline(flat, "where is the fridge?").answer.rows] == ["Refrigerator"]

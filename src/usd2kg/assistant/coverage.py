@@ -10,12 +10,14 @@ from usd2kg.assistant.sentences import join_words
 from usd2kg.knowledge import word_set
 from usd2kg.query.lookup import UnknownWordError
 
-__all__ = ["check_left", "check_nothing", "is_topic", "leaves_out", "with_notes"]
+__all__ = ["check_left", "check_nothing", "check_requests", "is_topic", "leaves_out", "tells_more", "with_notes"]
 
 _CONDITIONS = word_set("query", "negations") | word_set("assistant", "conditions")
 _EMBEDDED = re.compile(r"\b(know|see|check|sure|wonder|tell|ask) (me )?(if|whether)\b", re.IGNORECASE)
 """Begins a question within a clause, which is no condition."""
-_REQUEST = re.compile(r"(so )?(how|what|which|where|who|whose|why|when)\b", re.IGNORECASE)
+_REQUEST = re.compile(
+    r"(so )?(how|what|which|where|who|whose|why|when|describe|find|give|list|name|show|tell)\b", re.IGNORECASE
+)
 """Begins a question of its own."""
 _EMPTY_WORDS = word_set("assistant", "fillers") | word_set("query", "determiners")
 _OTHER_TIMES = word_set("assistant", "other_times")
@@ -59,6 +61,16 @@ def check_nothing(found: InterpretedAnswer, phrase: Phrase, guesses: Sequence[st
             raise UnknownWordError(f"{part!r} is not understood")
 
 
+def check_requests(phrase: Phrase) -> None:
+    """Check that a reading of one clause leaves out no other that asks for something.
+
+    Raises:
+        UnknownWordError: it does.
+    """
+    if asked := next((part for part in phrase.left if _REQUEST.match(part)), None):
+        raise UnknownWordError(f"{asked!r} is not understood")
+
+
 def is_topic(clause: str) -> bool:
     """Return whether a clause is a definite noun phrase without a verb, which the question is about.
 
@@ -87,8 +99,16 @@ def with_notes(found: InterpretedAnswer, phrase: Phrase, text: str, read_as: Seq
         read_as: notes on nouns, which the sentence may have already.
     """
     left = _parts_with_content(phrase)
-    said = [f"{note[:1].upper()}{note[1:]}." for note in dict.fromkeys(read_as) if note not in found.sentence]
-    said += [f"Not taken into account: {join_words([f'“{part}”' for part in left])}."] if left else []
+    found = found.with_notes(read_as)
+    said = [f"Not taken into account: {join_words([f'“{part}”' for part in left])}."] if left else []
     if phrase.question not in _ABOUT_TIME and not _OTHER_TIMES.isdisjoint(_words(text)):
         said.append("The answer is about the scene as it is, not about another time.")
     return found.with_sentence(" ".join(filter(None, [found.sentence, *said]))) if said else found
+
+
+_SAYS = re.compile(r"was read as|Not taken into account")
+
+
+def tells_more(one: InterpretedAnswer, other: InterpretedAnswer) -> bool:
+    """Return whether an answer takes all words as they are, and another does not."""
+    return _SAYS.search(one.sentence) is None and _SAYS.search(other.sentence) is not None

@@ -39,7 +39,6 @@ class MeasureAnswers(Answers):
             "weigh": lambda thing: self._measure(thing, "heavy"),
             "color": self._color,
             "material": self._material,
-            "are-color": self._are_like,
             "are-kind": self._are_kind,
             "purpose": self._purpose,
             "put": self._put,

@@ -1,47 +1,46 @@
 """ask_offline: answer a question in people's words, without a language model."""
 
-import math
 import re
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping
+from functools import partial
 from pathlib import Path
+from typing import NamedTuple
 
 from usd2kg.assistant.comparisons import ComparisonAnswers
-from usd2kg.assistant.coverage import check_left, check_nothing, is_topic, leaves_out, with_notes
+from usd2kg.assistant.composition import ComposedAnswers
+from usd2kg.assistant.coverage import (
+    check_left,
+    check_nothing,
+    check_requests,
+    is_topic,
+    leaves_out,
+    tells_more,
+    with_notes,
+)
 from usd2kg.assistant.describe import description_answer
 from usd2kg.assistant.differences import DifferenceAnswers
 from usd2kg.assistant.distances import DistanceAnswers
 from usd2kg.assistant.intents import parse_intent
-from usd2kg.assistant.interpreted_answer import InterpretedAnswer
+from usd2kg.assistant.interpreted_answer import InterpretedAnswer, contradict
 from usd2kg.assistant.likeness import LikenessAnswers
 from usd2kg.assistant.measures import MeasureAnswers
 from usd2kg.assistant.openings import OpeningAnswers
 from usd2kg.assistant.paraphrases import paraphrases
 from usd2kg.assistant.phrases import Phrase, match_phrases, normalize, split_clauses
-from usd2kg.assistant.relation_answers import PREPOSITIONS, RelationAnswers
-from usd2kg.assistant.sentences import (
-    begin_sentence,
-    count_phrase,
-    join_few,
-    plural,
-    split_number,
-    the_thing,
-    yes_or_no,
-)
+from usd2kg.assistant.relation_answers import RelationAnswers
 from usd2kg.assistant.series import SeriesAnswers
-from usd2kg.assistant.settings import SENTENCES
-from usd2kg.assistant.thing_lists import ThingLists
+from usd2kg.assistant.thing_answers import ThingAnswers
 from usd2kg.assistant.units import Units
 from usd2kg.errors import GraphError
 from usd2kg.grounding import concepts_named
 from usd2kg.knowledge import word_map, word_set
-from usd2kg.query import Answer, GraphStore
+from usd2kg.query import GraphStore
 from usd2kg.query.answer import join_answers
-from usd2kg.query.lookup import Nouns, Things, UnknownWordError
+from usd2kg.query.lookup import Nouns, UnknownWordError
 from usd2kg.query.lookup.amounts import UNIT_SYMBOLS
 from usd2kg.query.lookup.body_measures import BodyMeasures
 from usd2kg.query.lookup.prepositions import RELATION_OF
-from usd2kg.query.lookup.related_things import find_parts, find_related
-from usd2kg.query.lookup.word_forms import is_plural, singular, split_phrase
+from usd2kg.query.lookup.word_forms import is_plural
 from usd2kg.query.questions import list_questions
 from usd2kg.query.unicode_text import check_text
 
@@ -55,6 +54,21 @@ _ANTECEDENT_WORDS = 20
 """Words before a pronoun among which its noun is looked for."""
 _STOP_WORDS = word_set("assistant", "fillers") | word_set("query", "connectives")
 """Words that are in no noun."""
+
+
+class _Attempt(NamedTuple):
+    """What came of reading a question in one way."""
+
+    answer: InterpretedAnswer | None = None
+    question: str = ""
+    """Id of the question type."""
+    problem: str = ""
+    is_known: bool = False
+    """Whether the question was understood, and the graph does not know the answer."""
+
+
+_COMPOSED = word_set("assistant", "composed_types")
+"""Question types that composition reads in any words: what it does not read of them, a pattern may have misread."""
 
 
 def ask_offline(graph: GraphStore, text: str, since: Path | None = None) -> InterpretedAnswer:
@@ -86,6 +100,7 @@ class _Answerer:
         self._graph = graph
         self._since = since
         self._facts = graph.facts
+        self._is_english = is_english
         self._nouns = Nouns(self._facts, is_english=is_english)
         self._bodies = BodyMeasures(self._facts)
         self._measures = MeasureAnswers(self._facts, self._nouns, units)
@@ -96,32 +111,46 @@ class _Answerer:
         self._relations = RelationAnswers(graph.facts, self._nouns, units)
         self._series = SeriesAnswers(graph.facts, self._nouns, units)
         self._openings = OpeningAnswers(graph, self._nouns, units)
-        self._things = ThingLists(self._facts, self._nouns)
+        self._lists = ThingAnswers(graph.facts, self._nouns, units)
 
     @property
     def _handlers(self) -> Mapping[str, Callable[..., InterpretedAnswer]]:
         # An attribute would be a reference cycle, which keeps the graph until the next full garbage collection.
         return {
             "about": self._about,
-            "all": self._all,
             "changed": self._changed,
-            "count": self._count,
-            "has-parts": self._has_parts,
-            "how-many": self._how_many,
-            "is-there": self._is_there,
             "parts": self._parts,
-            "parts-list": self._parts_list,
-            "parts-of": self._parts_of,
-            "stands-on": self._stands_on,
-            "where": self._where,
-            "which": self._which,
-            "with-parts": self._with_parts,
         }
 
     def answer(self, text: str) -> InterpretedAnswer:
-        """Return the answer to a question, by its pattern, else by its cue, or to a noun alone, such as `laptops?`."""
-        phrases = match_phrases(text)
-        readers = self._readers(text, phrases)
+        """Return the answer to a question by composition and by patterns, which must not contradict each other.
+
+        Raises:
+            GraphError: the question is not understood, or may mean two things with different answers.
+        """
+        composed = self._first(text, self._composed_readers(text)) if self._is_english else _Attempt()
+        matched = self._first(text, self._readers(text))
+        if composed.answer is None and matched.answer is None and (clause := self._with_antecedent(text)) is not None:
+            return self.answer(clause)
+        if matched.answer is None:
+            if composed.answer is not None:
+                return composed.answer
+            raise GraphError(matched.problem if matched.is_known else composed.problem or self._advice(text, matched))
+        if composed.answer is None:
+            if self._is_english and matched.question in _COMPOSED:
+                raise GraphError(composed.problem or self._advice(text, matched))
+            return matched.answer
+        if not contradict(composed.answer, matched.answer):
+            return matched.answer
+        if tells_more(composed.answer, matched.answer):
+            return composed.answer
+        raise UnknownWordError(
+            f"{text!r} may mean two things, with different answers: {composed.answer.sentence} "
+            f"Or: {matched.answer.sentence}"
+        )
+
+    def _first(self, text: str, readers: Iterable[tuple[_Reader, Phrase]]) -> _Attempt:
+        """Return the answer of the first reading of a question that its words allow."""
         problem = ""
         for read, phrase in readers:
             self._nouns.notes.clear()
@@ -130,20 +159,45 @@ class _Answerer:
                 self._check_topics(text, phrase)
                 found = read(phrase)
                 check_nothing(found, phrase, self._nouns.guesses)
-                return with_notes(found, phrase, text, self._nouns.notes)
+                return _Attempt(with_notes(found, phrase, text, self._nouns.notes), phrase.question)
             except UnknownWordError as error:
                 # A pattern may have taken other words for a part of the noun. The error itself would be a reference
                 # cycle, which keeps the graph.
                 problem = problem or str(error)
-        if (clause := self._with_antecedent(text)) is not None:
-            return self.answer(clause)
-        if phrases:
-            raise UnknownWordError(problem)
-        raise GraphError(
-            f"question {text!r} is not understood ({problem}); expected a question like 'what is on the table?', "
-            "'where is the kettle?', 'how many cups are there?' or 'what must be moved to open the drawer?' "
-            "(usd2kg query --list shows more); or let a language model write the query with --model"
+            except GraphError as error:
+                return _Attempt(None, phrase.question, str(error), is_known=True)
+        return _Attempt(None, "", problem)
+
+    def _advice(self, text: str, attempt: _Attempt) -> str:
+        if attempt.problem and match_phrases(text):
+            return attempt.problem
+        return (
+            f"question {text!r} is not understood{f' ({attempt.problem})' if attempt.problem else ''}; expected a "
+            "question like 'what is on the table?', 'where is the kettle?', 'how many cups are there?' or 'what must "
+            "be moved to open the drawer?' (usd2kg query --list shows more); or let a language model write the query "
+            "with --model"
         )
+
+    def _composed_readers(self, text: str) -> Iterator[tuple[_Reader, Phrase]]:
+        """Yield the wordings of a question, and of each of its clauses, for composition."""
+        whole, clauses = normalize(text), split_clauses(text)
+        composer = ComposedAnswers(self._facts, self._nouns, self._relations, self.find)
+        seen = set[str]()
+        for at, asked in enumerate((whole, *reversed(clauses))):
+            others = [clause for clause in clauses if at and clause != asked]
+            for wording in (asked, *paraphrases(asked)):
+                if wording not in seen:
+                    seen.add(wording)
+                    phrase = Phrase("composed", {"thing": wording}, left=tuple(others))
+                    yield partial(self._answer_composed, composer), phrase
+
+    def _answer_composed(self, composer: ComposedAnswers, phrase: Phrase) -> InterpretedAnswer:
+        check_left(phrase)
+        check_requests(phrase)
+        found = composer.answer(phrase.given["thing"])
+        if found is None:
+            raise UnknownWordError("")
+        return found
 
     def _check_topics(self, text: str, phrase: Phrase) -> None:
         """Check that no clause that a reading leaves out names things that the question is about.
@@ -156,8 +210,9 @@ class _Answerer:
             if part in clauses and (is_topic(part) or self._means_things(part)):
                 raise UnknownWordError(f"{part!r} beside the question is not understood")
 
-    def _readers(self, text: str, phrases: Sequence[Phrase]) -> list[tuple[_Reader, Phrase]]:
-        """Return the readings of a question, first those that use all of it; of other wordings if its own fail."""
+    def _readers(self, text: str) -> list[tuple[_Reader, Phrase]]:
+        """Return the readings of a question by pattern, cue or noun, first those that use all of it."""
+        phrases = match_phrases(text)
         own: list[tuple[_Reader, Phrase]] = [(self._answer_phrase, phrase) for phrase in phrases]
         own += [(self._answer_intent, intent) for intent in [parse_intent(text)] if intent is not None]
         own += [] if own else [(self._answer_noun, Phrase("noun", {"thing": normalize(text)}))]
@@ -205,7 +260,7 @@ class _Answerer:
         return found
 
     def _answer_noun(self, noun: Phrase) -> InterpretedAnswer:
-        return self._list(self._nouns.find(noun.given["thing"], may_shorten=False))
+        return self._lists.list(self._nouns.find(noun.given["thing"], may_shorten=False))
 
     def find(self, question: str) -> Callable[..., InterpretedAnswer] | None:
         """Return the method that answers a question type; None for a ready question."""
@@ -219,6 +274,7 @@ class _Answerer:
             self._relations.find,
             self._openings.find,
             self._series.find,
+            self._lists.find,
         )
         return next((found for find in finders if (found := find(question)) is not None), None)
 
@@ -229,159 +285,6 @@ class _Answerer:
             return self._ready_question(phrase.question, phrase.given)
         # `class` is no name for a parameter.
         return handler(**{name.replace("class", "kind"): value for name, value in phrase.given.items()})
-
-    # Lists and counts.
-
-    def _all(self, kind: str = "things", **_: str) -> InterpretedAnswer:
-        return self._list(self._nouns.find(kind))
-
-    def _list(self, things: Things) -> InterpretedAnswer:
-        is_modified = not _LINKS.isdisjoint(things.text.split())
-        if not things.iris and not is_modified and not concepts_named(things.text):
-            raise UnknownWordError(f"{things.text!r} is not a thing that the lexicon knows")
-        return self._things.answer(things)
-
-    def _how_many(self, kind: str) -> InterpretedAnswer:
-        things = self._nouns.find(kind)
-        self._things.check_kind(things)
-        count = len(things.iris)
-        verb = "is" if count == 1 else "are"
-        *before, last = things.text.split() or ["thing"]
-        named = " ".join([*before, singular(last)]) if count == 1 else plural(things.text)
-        sentence = f"There {verb} {count} {named}{things.suffix}." if count else f"{begin_sentence(things.absence)}."
-        return InterpretedAnswer(
-            f"number of {things.text}", self._things.located(things.iris), number=count, sentence=sentence
-        )
-
-    def _count(self) -> InterpretedAnswer:
-        facts = self._facts
-        counts = facts.class_counts()
-        rows = tuple(sorted(counts.items(), key=lambda item: (-item[1], item[0])))
-        table = Answer(("class", "count"), tuple((label, str(count)) for label, count in rows), rows, "")
-        sentence = f"There are {len(facts.things)} objects of {len(counts)} classes."
-        return InterpretedAnswer("number of objects of each class", table, number=len(facts.things), sentence=sentence)
-
-    def _is_there(self, kind: str, count: str = "") -> InterpretedAnswer:
-        exact, kind = split_number(f"{count} {kind}" if count else kind)
-        things = self._nouns.find(kind, may_shorten=False)
-        self._things.check_kind(things)
-        answer = self._things.answer(things)
-        yes = len(things.iris) == exact if count else len(things.iris) >= exact
-        said = yes_or_no(yes, answer.sentence)
-        return InterpretedAnswer(f"whether there is {things.text}", answer.answer, yes, sentence=said)
-
-    # Places and parts.
-
-    def _where(self, thing: str) -> InterpretedAnswer:
-        facts, things = self._facts, self._nouns.find(thing)
-        if not things.iris:
-            return InterpretedAnswer(
-                f"where: {things.text}", facts.table(()), sentence=f"{begin_sentence(things.absence)}."
-            )
-        parts, places = [], []
-        for iri in things.iris:
-            said: list[str] = []
-            rooms = facts.anchors("room", iri)
-            held = [
-                (name, anchor)
-                for name in ("on", "inside", "attached", "part")
-                for anchor in facts.anchors(name, iri)
-                if anchor not in rooms
-            ]
-            # The smallest thing that holds it says most about the place.
-            held.sort(key=lambda found: self._volume(found[1]))
-            held = held or [("room", anchor) for anchor in rooms]
-            places += [anchor for _, anchor in held]
-            named_once = dict(reversed(held))
-            said += [
-                f"{PREPOSITIONS.get(name, 'in')} {the_thing(facts.kind(anchor), facts.label(anchor))}"
-                for name, anchor in held
-                if named_once[name] == anchor
-            ]
-            body = facts.body(iri)
-            if body.lower is not None and body.upper is not None:
-                x, y, z = (body.lower + body.upper) / 2
-                said.append(f"at ({x:.2f}, {y:.2f}, {z:.2f}) m")
-            parts.append(f"{facts.label(iri)} is {', '.join(said) or 'somewhere, without a known place'}")
-        rest = len(parts) - SENTENCES.max_named
-        shown = "; ".join([*parts[: SENTENCES.max_named], *([f"and {rest} more"] if rest > 0 else [])])
-        sentence = f"{shown}{things.suffix}."
-        named = tuple(dict.fromkeys(facts.path(iri) for iri in places))
-        return InterpretedAnswer(
-            f"where: {things.text}", self._things.located(things.iris), sentence=sentence, places=named
-        )
-
-    def _volume(self, iri: str) -> float:
-        """Return the volume of the box of an object in m³, infinite without one."""
-        extents = self._facts.body(iri).extents
-        return math.prod(extents) if extents is not None else math.inf
-
-    def _stands_on(self, thing: str) -> InterpretedAnswer:
-        facts, things = self._facts, self._nouns.find(thing)
-        rooms = {room for iri in things.iris for room in facts.anchors("room", iri)}
-        held = [
-            (name, anchor)
-            for iri in things.iris
-            for name in ("on", "inside", "attached")
-            for anchor in facts.anchors(name, iri)
-            if anchor not in rooms
-        ]
-        # What is on a thing is not asked about where it is in or attached to another.
-        first = held[0][0] if held else ""
-        anchors = [anchor for name, anchor in held if name == first]
-        if not anchors:
-            raise GraphError(f"not known: the graph does not state what {things.text} is on{things.suffix}")
-        verb = "are" if len(things.iris) > 1 else "is"
-        named = join_few([the_thing(facts.kind(anchor), facts.label(anchor)) for anchor in dict.fromkeys(anchors)])
-        sentence = begin_sentence(f"{things.text} {verb} {PREPOSITIONS[first]} {named}{things.suffix}.")
-        return InterpretedAnswer(f"what {things.text} is on", self._things.located(anchors), sentence=sentence)
-
-    def _parts_of(self, kind: str, thing: str) -> InterpretedAnswer:
-        wholes, what = self._nouns.find(thing), self._nouns.find(kind)
-        if not wholes.iris:
-            if self._nouns.is_whole_scene(wholes.text):
-                return self._how_many(kind)
-            raise GraphError(wholes.absence)
-        parts = find_related(self._facts, "part", wholes.iris, is_direct=True)
-        if not parts:
-            raise GraphError(f"not known: the graph states no parts of {wholes.text} as objects of their own")
-        if not what.iris:
-            raise GraphError(what.absence)
-        chosen = [iri for iri in what.iris if iri in parts]
-        sentence = f"{begin_sentence(self._things.the(wholes))} has {count_phrase(len(chosen), what.text)}."
-        return InterpretedAnswer(
-            f"{what.text} that are parts of {wholes.text}",
-            self._things.located(chosen),
-            number=len(chosen),
-            sentence=sentence,
-        )
-
-    def _parts_list(self, kind: str, thing: str) -> InterpretedAnswer:
-        if self._nouns.is_whole_scene(" ".join(split_phrase(thing))):
-            return self._all(kind)
-        return self._parts_of(kind, thing)
-
-    def _with_parts(self, kind: str, other: str, count: str = "") -> InterpretedAnswer:
-        """Return the things that have parts of a kind: any, or as many as the question names."""
-        number, noun = split_number(other)
-        things, parts = self._nouns.find(kind), set(self._nouns.find(noun).iris)
-        is_counted = bool(count) or noun != other
-        own = {iri: len(parts & find_parts(self._facts, [iri])) for iri in things.iris}
-        chosen = [iri for iri, many in own.items() if (many == number if is_counted else many)]
-        if not any(own.values()):
-            return self._which(kind, f"with {other}")
-        named = Things(tuple(chosen), f"{things.text} with {other}", things.note)
-        return self._things.answer(named)
-
-    def _which(self, kind: str, other: str) -> InterpretedAnswer:
-        self._nouns.existing(kind)
-        return self._things.answer(self._nouns.find(f"{kind} {other}"))
-
-    def _has_parts(self, kind: str, thing: str) -> InterpretedAnswer:
-        found = self._parts_of(kind, thing)
-        yes = bool(found.number)
-        sentence = yes_or_no(yes, found.sentence)
-        return InterpretedAnswer(f"whether there are {found.understood}", found.answer, yes, sentence=sentence)
 
     def _parts(self, thing: str) -> InterpretedAnswer:
         answers = [self._graph.parts_of(self._facts.path(iri)) for iri in self._nouns.existing(thing).iris]

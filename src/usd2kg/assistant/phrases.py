@@ -40,7 +40,9 @@ _PARAMETERS = {
 _POLITE = re.compile(
     r"(please|pls|(can|could) you(?! (see|find|spot|have)\b)|would you|"
     r"tell me(?! about)|is it true that|can it be that|(can|could) (someone|somebody|anyone|anybody) (tell me|say)|"
-    r"(i|we) (want|need|would like|have) to know|i'd like to know|i wonder|do you know|let me know|"
+    r"(i|we) (want|need|would like|have) to know|i'd like to know|i wonder|"
+    r"(does|do) (you|anyone|anybody|someone|somebody) know|"
+    r"let me know|"
     r"find out|check|see|hey|hi|hello|robot|ok|okay|oh|so|well|sorry|excuse me|"
     r"for (my|the|our) (report|records?|notes|list|plan|drawing|inventory)|"
     r"and|bitte|s'il te plaît|por favor|per favore),?\s+(please )?",

@@ -2,19 +2,17 @@
 
 import re
 from collections.abc import Mapping, Sequence
-from dataclasses import replace
 
 from usd2kg.assistant.answers import Answers, Handler
 from usd2kg.assistant.interpreted_answer import InterpretedAnswer
-from usd2kg.assistant.sentences import begin_sentence, join_few, name_things, split_number, the_thing, yes_or_no
-from usd2kg.assistant.thing_lists import column_of
+from usd2kg.assistant.sentences import begin_sentence, join_few, name_things, split_number, yes_or_no
 from usd2kg.errors import GraphError
 from usd2kg.knowledge import word_set
 from usd2kg.query.lookup import Things, UnknownWordError
 from usd2kg.query.lookup.body_measures import BodyMeasures
 from usd2kg.query.lookup.directions import find_beside, find_between
 from usd2kg.query.lookup.prepositions import is_direct, relation_of
-from usd2kg.query.lookup.related_things import find_above, find_below, find_parts, find_related
+from usd2kg.query.lookup.related_things import find_above, find_parts, find_related
 from usd2kg.query.lookup.word_forms import is_plural, split_phrase
 from usd2kg.query.settings import DIRECTIONS
 
@@ -49,62 +47,18 @@ class RelationAnswers(Answers):
             "between-two": lambda kind: self._between(*self._things.pair(kind)),
             "rel-count": self._rel_count,
             "rel-is": self._rel_is,
-            "rel-some": self._rel_some,
             "rel-what": self._rel_what,
-            "rel-both": self._rel_both,
-            "which-holder": self._which_holder,
         }
 
     def _rel_what(self, relation: str, thing: str) -> InterpretedAnswer:
         return self._related(relation, thing, None)
 
-    def _rel_both(self, relation: str, thing: str, second: str, other: str) -> InterpretedAnswer:
-        """Return the things that are in two relations."""
-        first, also = self._related(relation, thing, None), self._related(second, other, None)
-        paths = set(column_of(also.answer, "path"))
-        chosen = [iri for path in column_of(first.answer, "path") if path in paths for iri in self._facts.at_path(path)]
-        verb = "is" if len(chosen) < 2 else "are"
-        place = f"{relation} {thing} and {second} {other}"
-        sentence = begin_sentence(f"{name_things(self._facts, chosen) or 'nothing'} {verb} {place}.")
-        return InterpretedAnswer(f"things {place}", self._things.located(chosen), sentence=sentence)
-
-    def _rel_some(self, relation: str, thing: str = "", kind: str = "things", other: str = "") -> InterpretedAnswer:
-        if other:
-            if denied := re.fullmatch(r"(?:nothing|no (?P<noun>.+))", other, re.IGNORECASE):
-                what = f"without {denied['noun']}" if denied["noun"] else "with nothing on"
-                return self._things.answer(self._nouns.find(f"{kind} {what}"))
-            # “Which chairs have a cushion on them?”: the anchors.
-            anchors, targets = self._nouns.find(kind), set(self._nouns.find(other).iris)
-            name = relation_of(relation)
-            chosen = [iri for iri in anchors.iris if find_related(self._facts, name, [iri], is_direct=False) & targets]
-            named = Things(tuple(chosen), f"{anchors.text} with {other} {PREPOSITIONS[name]} them")
-            return replace(self._things.answer(named), number=len(chosen))
-        return self._related(relation, thing, kind)
-
-    def _which_holder(self, relation: str, kind: str, thing: str) -> InterpretedAnswer:
-        """Return the things of a kind that others are on or in, directly or over what is between: on which shelf."""
-        name, facts = relation_of(relation), self._facts
-        things, kinds = self._nouns.existing(thing), self._nouns.existing(kind)
-        held = set(things.iris)
-        chosen = [
-            iri
-            for iri in kinds.iris
-            if iri not in held
-            and any(held & find_related(facts, one, [iri], is_direct=False) for one in (name, "on", "inside", "part"))
-        ]
-        if not chosen:
-            raise GraphError(f"not known: no {kinds.text} is known to have {things.text} {PREPOSITIONS[name]} it")
-        verb = "is" if len(things.iris) == 1 else "are"
-        named = " and ".join(the_thing(facts.kind(iri), facts.label(iri)) for iri in chosen)
-        return InterpretedAnswer(
-            f"the {kinds.text} that {things.text} {verb} {PREPOSITIONS[name]}",
-            self._things.located(chosen),
-            sentence=f"{begin_sentence(things.text)} {verb} {PREPOSITIONS[name]} {named}{things.suffix}{kinds.suffix}.",
-            places=tuple(map(facts.path, chosen)),
-        )
+    def _kind(self, kind: str) -> str | None:
+        """Return the noun for what is asked for; None for any things, which are meant as they are stated."""
+        return None if kind.lower() in {"objects", "things", "items"} else kind
 
     def _rel_count(self, kind: str, relation: str, thing: str) -> InterpretedAnswer:
-        found = self._related(relation, thing, kind)
+        found = self._related(relation, thing, self._kind(kind))
         if _EACH.match(thing):
             return self._count_each(kind, relation, thing)
         return InterpretedAnswer(
@@ -145,26 +99,8 @@ class RelationAnswers(Answers):
             self._things.check_kind(what)
         anchors = self._anchors(name, thing)
         understood = f"{'things' if what is None else what.text} {PREPOSITIONS[name]} {anchors.text}"
-        found, note = self._by_relation(name, thing, anchors, is_direct=what is None or is_direct(relation)), ""
-        if name == "inside" and (what is None or what.text == "thing"):
-            # The door of a microwave is a part of it, not what is in it.
-            found -= find_parts(self._facts, anchors.iris)
-        if name == "attached" and not found:
-            # A sink is built into a countertop as a part of it.
-            found = find_related(facts, "part", anchors.iris, is_direct=True)
-        if name in {"below", "near"} and (what is None or what.text == "thing"):
-            found -= self._nouns.shells()
-        if not found and name in _BY_BOXES:
-            found, note = self._by_boxes(name, anchors)
-        if name == "on" and found.isdisjoint(found if what is None else what.iris):
-            # Pictures hang on a wall, and handles are on a cabinet.
-            found = self._fixed_to(anchors.iris, with_parts=what is not None and what.text != "thing")
-        if name == "below" and what is not None and found.isdisjoint(what.iris):
-            # A rug is under the table that stands on it.
-            found = {one for iri in anchors.iris for one in facts.anchors("on", iri)}
-        chosen = [iri for iri in facts.sorted(found) if (what is None or iri in what.iris) and iri not in anchors.iris]
-        if name == "near" and what is not None and what.iris and not chosen and anchors.iris:
-            chosen, note = self._nearest_within_reach(what.iris, anchors.iris)
+        found = self._by_relation(name, thing, anchors, is_direct=what is None or is_direct(relation))
+        chosen, note = self._completed(name, found, anchors.iris, what)
         notes = f"{what.suffix if what else ''}{anchors.suffix}{note}"
         place = f"{'directly ' if is_direct(relation) else ''}{PREPOSITIONS[name]} {self._things.the(anchors)}"
         if chosen:
@@ -177,6 +113,63 @@ class RelationAnswers(Answers):
             named = "Nothing" if what is None or what.text == "thing" else f"No {what.text}"
             sentence = f"{named} {'are' if what is not None and is_plural(what.text) else 'is'} {place}{notes}."
         return InterpretedAnswer(understood, self._things.located(chosen), sentence=sentence)
+
+    def find_in_relation(
+        self, name: str, anchors: Sequence[str], iris: Sequence[str] | None, *, is_direct: bool
+    ) -> set[str]:
+        """Return which of some objects, or of all, are in a relation to any of others.
+
+        Args:
+            name: the relation.
+            anchors: the others.
+            iris: the objects; None for all.
+            is_direct: whether what is over another thing is left out.
+        """
+        what = None if iris is None else Things(tuple(iris), "")
+        others = Things(tuple(anchors), "")
+        found = self._of_anchors(name, others, is_direct=is_direct or iris is None)
+        chosen, _ = self._completed(name, found, anchors, what)
+        return set(chosen)
+
+    def _completed(
+        self, name: str, found: set[str], anchors: Sequence[str], what: Things | None
+    ) -> tuple[list[str], str]:
+        """Return what people mean by a relation, among what the graph states, and the note that says how it is known.
+
+        Args:
+            name: the relation.
+            found: what the graph states.
+            anchors: what the relation leads to.
+            what: the things among which is chosen; None for all.
+        """
+        facts, note = self._facts, ""
+        is_any = what is None or what.text == "thing"
+        if name == "inside" and is_any:
+            # The door of a microwave is a part of it, not what is in it.
+            found = found - find_parts(facts, anchors)
+        if name == "inside" and what is not None and self._nouns.shells().issuperset(anchors):
+            # A window is in the wall that it is fixed to.
+            found = found | find_related(facts, "attached", anchors, is_direct=True)
+        if name == "attached" and not found:
+            # A sink is built into a countertop as a part of it.
+            found = find_related(facts, "part", anchors, is_direct=True)
+        if name in {"below", "near"} and is_any:
+            found = found - self._nouns.shells()
+        if name in _BY_BOXES and (
+            not found or (name == "above" and found.isdisjoint(found if what is None else what.iris))
+        ):
+            # The graph states what is just above, and there may be more above that.
+            found, note = self._by_boxes(name, anchors)
+        if name == "on" and found.isdisjoint(found if what is None else what.iris):
+            # Pictures hang on a wall, and handles are on a cabinet.
+            found = self._fixed_to([*anchors, *found], with_parts=not is_any)
+        if name == "below" and what is not None and found.isdisjoint(what.iris):
+            # A rug is under the table that stands on it.
+            found = {one for iri in anchors for one in facts.anchors("on", iri)}
+        chosen = [iri for iri in facts.sorted(found) if (what is None or iri in what.iris) and iri not in anchors]
+        if name == "near" and what is not None and what.iris and not chosen and anchors:
+            chosen, note = self._nearest_within_reach(what.iris, anchors)
+        return chosen, note
 
     def _nearest_within_reach(self, iris: Sequence[str], anchors: Sequence[str]) -> tuple[list[str], str]:
         """Return the nearest of some things, if it is within reach, and the note that says how far it is."""
@@ -217,26 +210,34 @@ class RelationAnswers(Answers):
         return things
 
     def _by_relation(self, name: str, text: str, anchors: Things, *, is_direct: bool) -> set[str]:
-        if name == "below":
-            return {iri for anchor in anchors.iris for iri in find_below(self._facts, anchor)}
-        if name in _BY_BOXES:
-            return find_related(self._facts, name, anchors.iris, is_direct=is_direct)
+        if name == "below" or name in _BY_BOXES:
+            return self._of_anchors(name, anchors, is_direct=is_direct)
         found = self._nouns.around(name, text, is_direct=is_direct)
         if name == "on" and self._is_open_storage(anchors):
             found |= self._nouns.around("inside", text, is_direct=is_direct)
         return found
 
-    def _by_boxes(self, name: str, anchors: Things) -> tuple[set[str], str]:
+    def _of_anchors(self, name: str, anchors: Things, *, is_direct: bool) -> set[str]:
+        """Return the objects that the graph states to be in a relation to others."""
+        if name in _BY_BOXES:
+            return find_related(self._facts, name, anchors.iris, is_direct=is_direct)
+        found = self._nouns.in_relation(name, anchors.iris, is_direct=is_direct)
+        if name == "on" and self._is_open_storage(anchors):
+            found |= self._nouns.in_relation("inside", anchors.iris, is_direct=is_direct)
+        return found
+
+    def _by_boxes(self, name: str, anchors: Sequence[str]) -> tuple[set[str], str]:
         """Return what is above or beside things by their boxes, and the note that says so.
 
         Raises:
             GraphError: the boxes do not say what is beside them.
         """
         if name == "above":
-            return {iri for anchor in anchors.iris for iri in find_above(self._facts, anchor)}, ""
-        found = [find_beside(self._facts, name, iri) for iri in anchors.iris]
+            return {iri for anchor in anchors for iri in find_above(self._facts, anchor)}, ""
+        found = [find_beside(self._facts, name, iri) for iri in anchors]
         if any(one is None for one in found):
-            raise GraphError(f"not known: the graph has no viewpoint, and the boxes around {anchors.text} suggest none")
+            named = join_few([*map(self._facts.label, anchors)])
+            raise GraphError(f"not known: the graph has no viewpoint, and the boxes around {named} suggest none")
         note = " (by boxes, as seen from among the surrounding objects)"
         return {iri for one in found for iri in one or ()}, note
 

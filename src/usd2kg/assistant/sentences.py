@@ -23,7 +23,7 @@ __all__ = [
     "yes_or_no",
 ]
 
-_MODIFIED = re.compile(rf"(?P<noun>.+?)(?P<rest> (?:of|with|without|{preposition_pattern()}) .+)")
+_MODIFIED = re.compile(rf"(?P<noun>.+?)(?P<rest> (?:of|that|with|without|{preposition_pattern()}) .+)")
 _SAME_PLURAL = frozenset(["cutlery", "equipment", "furniture", "scissors", "sheep", "stairs"])
 
 

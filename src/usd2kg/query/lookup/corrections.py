@@ -34,7 +34,7 @@ class Spelling:
 
     def correct(self, words: Sequence[str], is_known: Callable[[str], bool]) -> Correction:
         """Return the correction of a phrase; its words that are neither known nor in the graph are unknown."""
-        unknown = [word for word in words if not is_known(word) and not noun_words(word) & self._words_in_use]
+        unknown = [word for word in words if not is_known(word) and not self.is_in_use(word)]
         corrected, nearest = list(words), []
         for word in unknown or words:
             similar = process.extract(
@@ -48,6 +48,10 @@ class Spelling:
             if similar and (len(similar) == 1 or similar[0][1] > similar[1][1]) and len(word) >= WORDS.min_letters:
                 corrected[words.index(word)] = similar[0][0]
         return Correction(corrected, unknown or [*words], list(dict.fromkeys(nearest)))
+
+    def is_in_use(self, word: str) -> bool:
+        """Return whether a name, class or concept of the graph has a word, or a word has no letters."""
+        return not noun_words(word).isdisjoint(self._words_in_use) or not any(map(str.isalpha, word))
 
     @cached_property
     def _words_in_use(self) -> frozenset[str]:

@@ -30,13 +30,18 @@ def find_more_general(facts: SceneFacts, noun: str) -> Things | None:
         kinds.setdefault(" ".join([*(word for word in before if not restricts(word)), last]), []).append(iri)
     # People use the name of a near kind: a storage rack is a rack, which is a shelf in the scene.
     named = {kind: kind for kind in above}
-    named |= {_INTERCHANGEABLE[kind]: kind for kind in sorted(above & _INTERCHANGEABLE.keys())}
+    named |= {one: kind for kind in sorted(above & _INTERCHANGEABLE.keys()) for one in _near(kind)}
     shares = {kind: len(hypernyms_of(named[kind]) & above) / len(above) for kind in kinds if kind in named}
     near = [kind for kind, share in shares.items() if share >= WORDS.min_general_share]
     # The head of a compound is always more general.
     head = singular(noun.rsplit(maxsplit=1)[-1])
-    for kind in {head, _INTERCHANGEABLE.get(head, head)} & kinds.keys() - {noun}:
+    for kind in {head, *_near(head)} & kinds.keys() - {noun}:
         shares[kind] = 1.0
         near.append(kind)
     best = max(near, key=lambda kind: (shares[kind], kind), default=None)
     return None if best is None or best == noun else Things(tuple(facts.sorted(kinds[best])), best)
+
+
+def _near(noun: str) -> list[str]:
+    """Return the nouns that people use for another."""
+    return list(filter(None, _INTERCHANGEABLE.get(noun, "").split("/")))

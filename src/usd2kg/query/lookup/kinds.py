@@ -65,12 +65,15 @@ class Kinds:
         return frozenset(iri for one in self._names(name) for iri in concepts_named(one)[:1])
 
     def _names(self, name: str) -> list[str]:
-        """Return a noun, its singular, and a noun that people use for it; none for a name with a number: rack A1."""
+        """Return a noun, its singular, and nouns that people use for it; none for a name with a number: rack A1."""
         if any(letter.isdigit() for letter in name):
             return []
         *before, last = name.split() or [name]
         head = singular(last)
-        return [name, *(" ".join([*before, noun]) for noun in (head, _INTERCHANGEABLE.get(head)) if noun)]
+        return [
+            name,
+            *(" ".join([*before, noun]) for noun in (head, *_INTERCHANGEABLE.get(head, "").split("/")) if noun),
+        ]
 
     def _concepts_named(self, name: str) -> list[ox.NamedNode]:
         wanted = name_words(name)

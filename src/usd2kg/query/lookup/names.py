@@ -18,6 +18,8 @@ __all__ = ["NameMatcher"]
 
 _LINKS = word_set("query", "connectives") | word_set("query", "operators")
 """Words between two nouns, or that change which things are meant: the name of another thing may follow them."""
+_HELD = ("on", "inside", "attached", "part")
+"""Relations of a thing to the one that it is found at."""
 _AREAS = word_set("query", "area_nouns")
 
 _Criterion = Callable[[], Iterable[str]]
@@ -55,7 +57,7 @@ class NameMatcher:
             lambda: facts.named(lower),
             lambda: facts.named("".join(lower.split())) or facts.named("_".join(lower.split())) if " " in lower else (),
             lambda: self._with_words(names, is_whole=True) if len(words) > 1 and words == names else (),
-            lambda: self._main_of_group(lower) or self._main_of_groups(text),
+            lambda: self._main_of_group("_".join(lower.split())) or self._main_of_groups(text),
         )
         kinds: tuple[_Criterion, ...] = (
             lambda: self._in_place(text) if self._is_plain(text) else (),
@@ -138,6 +140,10 @@ class NameMatcher:
         if not grouped:
             return set()
         noun = " ".join(word for word in split_identifier(name) if word.isalpha() and len(word) > 1)
+        held = {iri for iri in grouped for name in _HELD if not grouped.isdisjoint(self._facts.anchors(name, iri))}
+        if len(carriers := grouped - held) == 1 and held:
+            # The sideboard of a group with what stands on it.
+            return (self._kinds.objects(noun) & grouped) or carriers
         return (self._kinds.objects(noun) & grouped) or (grouped - find_parts(self._facts, grouped)) or grouped
 
     def _main_of_groups(self, text: str) -> set[str]:

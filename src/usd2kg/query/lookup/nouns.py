@@ -1,7 +1,7 @@
 """Nouns: from words in a question to objects of the graph."""
 
 import re
-from collections.abc import Collection, Sequence
+from collections.abc import Sequence
 from dataclasses import replace
 from functools import cached_property
 
@@ -16,17 +16,15 @@ from usd2kg.query.lookup.corrections import Spelling
 from usd2kg.query.lookup.directions import find_beside
 from usd2kg.query.lookup.facts import SceneFacts
 from usd2kg.query.lookup.general_kinds import find_more_general
-from usd2kg.query.lookup.kinds import Kinds
 from usd2kg.query.lookup.modifiers import PhraseModifiers, restricts
-from usd2kg.query.lookup.names import NameMatcher
 from usd2kg.query.lookup.part_phrases import PartPhrases
+from usd2kg.query.lookup.place_nouns import PlaceNouns
 from usd2kg.query.lookup.prepositions import DIRECTLY, RELATION_OF, preposition_pattern
 from usd2kg.query.lookup.related_things import find_below, find_related
 from usd2kg.query.lookup.things import Things, UnknownWordError
 from usd2kg.query.lookup.word_forms import (
     is_noun,
     is_plural,
-    noun_words,
     singular,
     split_phrase,
 )
@@ -41,8 +39,6 @@ _FRAMES = word_set("query", "framing_nouns")
 _CONNECTIVES = word_set("query", "connectives")
 _OPERATORS = word_set("query", "operators")
 _RELATIONAL = word_set("query", "relational_nouns")
-_WHOLE_PLACES = word_set("query", "whole_places")
-_PLACE_KINDS = word_set("query", "place_kinds")
 _NUMBERS = word_set("query", "number_words")
 _FLOORS = word_set("query", "floors")
 _SHELLS = word_set("query", "shells")
@@ -60,7 +56,7 @@ _RELATION = re.compile(
 )
 
 
-class Nouns:
+class Nouns(PlaceNouns):
     """Resolves noun phrases in the words of people, with the lexicon that grounded the scene."""
 
     def __init__(self, facts: SceneFacts, *, is_english: bool = True) -> None:
@@ -70,11 +66,10 @@ class Nouns:
             facts: the graph.
             is_english: whether the words are English; else a word that two languages have may be foreign.
         """
-        self._facts = facts
+        super().__init__(facts)
         self._is_english = is_english
-        self._kinds = Kinds(facts)
         self._spelling = Spelling(facts, self._kinds)
-        self._names = NameMatcher(facts, self._kinds)
+        self._defined: dict[str, Things] = {}
         self.notes: list[str] = []
         """How unusual words of the noun phrases so far were read."""
         self.guesses: list[str] = []
@@ -103,10 +98,18 @@ class Nouns:
         Raises:
             UnknownWordError: a word is not understood; the message has the nearest ones.
         """
+        if (defined := self._defined.get(text)) is not None:
+            return defined
         found = self._resolve(text, may_shorten)
         if found.note:
             self.notes.append(found.note)
         return found
+
+    def define(self, things: Things) -> str:
+        """Return a name that means some objects from now on."""
+        name = f"#{len(self._defined)}"
+        self._defined[name] = things
+        return name
 
     def _resolve(self, text: str, may_shorten: bool) -> Things:
         exact = text.strip()
@@ -131,13 +134,19 @@ class Nouns:
             raise UnknownWordError(f"{foreign[0]!r} is not understood in a noun phrase")
         found = self._find(" ".join(words))
         if found is not None and found.iris:
-            return self._of_this_name(text, found)
+            is_linked = self._is_english or any(map(self._links, words))
+            return self._of_this_name(text, found) if is_linked else self._or_translated(words, found)
         if denied := _NEGATIONS.intersection(words):
             if found is not None:
                 return found
             raise UnknownWordError(f"{min(denied)!r} is not understood in a noun phrase")
         read = self._translated(words, found) or self._shortened(words, may_shorten)
         return read or (self._absent(found, may_shorten) if found is not None else self._correct(words))
+
+    def _or_translated(self, words: Sequence[str], found: Things) -> Things:
+        """Return what foreign words mean if it includes what they name: palettes, one of which has that name."""
+        translated = self._translated(words, None)
+        return translated if translated is not None and set(translated.iris) > set(found.iris) else found
 
     def _translated(self, words: Sequence[str], found: Things | None) -> Things | None:
         """Return what words of another language mean, also nothing if they mean nothing else."""
@@ -300,15 +309,6 @@ class Nouns:
             f"the classes {', '.join(self._kinds.used_labels)}"
         )
 
-    def in_area(self, text: str) -> set[str]:
-        """Return the objects below the groups that are named after a place: the reception area."""
-        return self._names.in_area(text)
-
-    def is_area(self, text: str, iris: Collection[str]) -> bool:
-        """Return whether objects that a text means are of the group with that name, and hold nothing: it is a place."""
-        is_holder = len(iris) == 1 and bool(find_related(self._facts, "inside", iris, is_direct=True))
-        return bool(iris) and not is_holder and set(iris) <= self._names.in_area(text)
-
     def shells(self) -> set[str]:
         """Return what surrounds a room, which nobody asks for as a neighbour of a thing."""
         return {iri for noun in _SHELLS for iri in self.known(noun)}
@@ -330,11 +330,6 @@ class Nouns:
     def floors(self) -> set[str]:
         """What heights are measured from."""
         return {iri for noun in _FLOORS for iri in self.known(noun)}
-
-    def lacks_room(self, text: str) -> bool:
-        """Return whether a noun means a room that the graph does not have."""
-        noun = " ".join(split_phrase(text))
-        return noun in _ROOM_NOUNS and not self._kinds.objects(noun) and not self._names.in_area(noun)
 
     def _restricted(self, text: str) -> Things | None:
         """Return the things that stand in a relation to others: `cups on the table`."""
@@ -382,14 +377,14 @@ class Nouns:
             return area
         if relation == "inside" and self.is_area(text, anchors.iris):
             return self._names.in_area(text)
-        found = self._in_relation(relation, anchors.iris, is_direct=is_direct)
+        found = self.in_relation(relation, anchors.iris, is_direct=is_direct)
         if relation == "inside" and not found and (area := self._names.in_area(text)):
             return area
         if not anchors.iris:
             raise GraphError(anchors.absence)
         return found
 
-    def _in_relation(self, relation: str, anchors: Sequence[str], *, is_direct: bool) -> set[str]:
+    def in_relation(self, relation: str, anchors: Sequence[str], *, is_direct: bool) -> set[str]:
         """Return the objects in a relation to any of some anchors, by boxes where the graph does not state it."""
         if relation == "below":
             return {iri for anchor in anchors for iri in find_below(self._facts, anchor)}
@@ -400,20 +395,6 @@ class Nouns:
             return found
         self.notes.append("What is beside a thing is by boxes, as seen from among the surrounding objects")
         return {iri for anchor in anchors for iri in find_beside(self._facts, relation, anchor) or ()}
-
-    def is_whole_scene(self, text: str) -> bool:
-        """Return whether a noun means the scene: the shop, or the room where the graph has none."""
-        is_scene = self._is_place(text) or (text.isalpha() and text in noun_words(self._names.root))
-        is_part = bool(self._kinds.objects(text) or self._names.in_area(text))
-        return is_scene and not is_part and not (text == "room" and self._facts.has_rooms)
-
-    def _is_place(self, text: str) -> bool:
-        return text in _WHOLE_PLACES or not _PLACE_KINDS.isdisjoint(hypernyms_of(text))
-
-    def is_group(self, text: str) -> bool:
-        """Return whether a noun means a place of which the graph only has the things in it, as a group."""
-        is_place = text in _ROOM_NOUNS or self._is_place(text)
-        return is_place and not self._kinds.objects(text) and bool(self._names.in_area(text))
 
     def _joined(self, text: str) -> Things | None:
         """Return the things of several nouns: `cups and plates`; none, with the first noun that nothing is."""
@@ -445,6 +426,10 @@ class Nouns:
             if nearest
             else f"{shown!r} is not a word that this graph or the lexicon knows"
         )
+
+    def knows(self, word: str) -> bool:
+        """Return whether a word of a noun phrase is in the lexicon or in a name of the graph, as it is written."""
+        return restricts(word) or self._is_known(word) or self._spelling.is_in_use(word)
 
     def _is_known(self, word: str) -> bool:
         return _RELATION_OF.get(word) in _RELATIONS or word in _DETERMINERS or is_noun(word)

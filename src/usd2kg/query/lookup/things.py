@@ -10,7 +10,7 @@ from usd2kg.query.lookup.word_forms import is_plural
 __all__ = ["Things", "UnknownWordError"]
 
 
-_MODIFIER = re.compile(rf" (?:with|without|of|within|nearest|closest|furthest|farthest|{preposition_pattern()})\b")
+_MODIFIER = re.compile(rf" (?:that|with|without|of|within|nearest|closest|furthest|farthest|{preposition_pattern()})\b")
 """Where the modifier after a noun begins."""
 
 
