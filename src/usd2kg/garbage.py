@@ -1,6 +1,7 @@
 """Collect cyclic garbage less often, and return freed memory to the system."""
 
 import atexit
+import ctypes
 import gc
 import sys
 from collections.abc import Iterator
@@ -48,9 +49,6 @@ def release_freed_memory() -> None:
 
     It keeps the memory of a closed stage otherwise, 150 MB for 100,000 objects, and other steps add theirs to it.
     """
-    # Only large stages need it.
-    import ctypes
-
     trim = getattr(ctypes.CDLL(None), "malloc_trim", None) if sys.platform == "linux" else None
     if trim is not None:
         trim(0)
