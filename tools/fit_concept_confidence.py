@@ -24,7 +24,7 @@ from usd2kg.grounding.lexical.recognition import ConfidenceWeights, describe_con
 from usd2kg.ontology import ClassIRI
 from usd2kg.pipeline import open_tbox
 
-RIDGE, STEP, ROUNDS = 0.0, 0.0005, 4000
+RIDGE = 0.0
 FOLDS, BINS = 5, 10
 
 
@@ -84,9 +84,7 @@ def fit(names: Sequence[Recognised]) -> Array:
     options = np.zeros((2 * len(names), len(ConfidenceWeights._fields)))
     options[::2] = [share_features(name.share) for name in names]
     is_right = np.array([[name.is_right, not name.is_right] for name in names]).ravel()
-    return fit_conditional_logit(
-        options, [2] * len(names), is_right, np.ones(len(names)), ridge=RIDGE, step=STEP, rounds=ROUNDS
-    )
+    return fit_conditional_logit(options, [2] * len(names), is_right, np.ones(len(names)), ridge=RIDGE)
 
 
 def calibration_error(outcomes: Sequence[tuple[float, bool]]) -> float:

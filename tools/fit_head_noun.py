@@ -30,7 +30,6 @@ from usd2kg.pipeline import open_tbox
 
 RIDGE = 2.0
 """Strength of the L2 penalty on the weights."""
-ROUNDS, STEP = 2000, 0.0005
 FOLDS = 5
 SCENE_COPIES = 3
 """Weight of a name from a scene relative to one from a list, since scenes are the intended input."""
@@ -126,8 +125,6 @@ def fit(names: Sequence[Name]) -> Array:
         np.concatenate([name.is_accepted for name in names]),
         np.ones(len(names)),
         ridge=RIDGE,
-        step=STEP,
-        rounds=ROUNDS,
     )
 
 

@@ -25,7 +25,6 @@ from usd2kg.ontology import ClassIRI, TBox
 
 RIDGE = 1.0
 """Strength of the L2 penalty on the weights of features scaled to unit variance."""
-ROUNDS, STEP = 3000, 0.5
 TINY = 1e-9
 """Added to the spread of a feature, which may be constant."""
 ACCEPTED_WEIGHT = 0.5
@@ -113,8 +112,6 @@ def fit(nouns: Sequence[Noun]) -> Array:
         np.array([iri in noun.right for noun in solvable for iri in noun.classes]),
         np.array([1.0 if noun.target in noun.classes else ACCEPTED_WEIGHT for noun in solvable]),
         ridge=RIDGE,
-        step=STEP / len(solvable),
-        rounds=ROUNDS,
     )
     return np.asarray(weights / spread)
 

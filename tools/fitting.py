@@ -5,6 +5,7 @@ from collections.abc import Mapping, Sequence
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.optimize import minimize
 
 from tools.data_files import write_data_file
 
@@ -12,19 +13,12 @@ Array = NDArray[np.float64]
 
 
 def fit_conditional_logit(
-    features: Array,
-    sizes: Sequence[int],
-    is_right: NDArray[np.bool_],
-    weights: Array,
-    *,
-    ridge: float,
-    step: float,
-    rounds: int,
+    features: Array, sizes: Sequence[int], is_right: NDArray[np.bool_], weights: Array, *, ridge: float
 ) -> Array:
-    """Return the coefficients that maximise the likelihood of choosing a right option, by gradient ascent.
+    """Return the coefficients that maximise the likelihood of choosing a right option less the L2 penalty.
 
     A choice has several options, at least one of them right; P(option | choice) ∝ exp(features · coefficients), as in
-    McFadden (1974).
+    McFadden (1974). The search is by L-BFGS (Liu and Nocedal, 1989).
 
     Args:
         features: (options, features), the options of one choice in a row.
@@ -32,21 +26,24 @@ def fit_conditional_logit(
         is_right: (options,).
         weights: (choices,).
         ridge: strength of the L2 penalty.
-        step: learning rate.
-        rounds: number of iterations.
     """
     choice = np.repeat(np.arange(len(sizes)), sizes)
     starts = np.cumsum([0, *sizes[:-1]])
     weight = weights[choice]
-    coefficients = np.zeros(features.shape[1])
-    for _ in range(rounds):
+
+    def loss(coefficients: Array) -> tuple[float, Array]:
         scores = features @ coefficients
         powers = np.exp(scores - np.maximum.reduceat(scores, starts)[choice])
-        shares = powers / np.bincount(choice, powers)[choice]
+        totals = np.add.reduceat(powers, starts)
         right = powers * is_right
-        wanted = right / np.bincount(choice, right)[choice]
-        coefficients += step * (((wanted - shares) * weight) @ features - ridge * coefficients)
-    return coefficients
+        right_totals = np.add.reduceat(right, starts)
+        likelihood = float((weights * np.log(right_totals / totals)).sum())
+        slope = ((right / right_totals[choice] - powers / totals[choice]) * weight) @ features
+        penalty = ridge / 2 * float(coefficients @ coefficients)
+        return penalty - likelihood, ridge * coefficients - slope
+
+    found = minimize(loss, np.zeros(features.shape[1]), jac=True, method="L-BFGS-B")
+    return np.asarray(found.x)
 
 
 def write_weights(file: str, names: Sequence[str], weights: Array, figures: Mapping[str, object], digits: int) -> None:

@@ -285,7 +285,7 @@ class TestNamingRegimes:
 
 class TestHomeSynonyms:
     def test_they_serve_an_ontology_with_the_same_iris(self):
-        views = [("/x", ObjectView(name="bedside_cabinet"))]
+        views = [("/x", ObjectView(name="componibili"))]
         answers = {
             use: local(LexicalGrounder(use_home_synonyms=use).ground_views(views, load_ontology("bedside tables"))[0])
             for use in (True, False)

@@ -70,35 +70,35 @@ def cosine(one: str, other: str, terms: tuple[Term, ...]) -> float:
 
 class TestRank:
     def test_without_a_head_noun_the_score_is_the_cosine_of_the_nearest_term(self):
-        (best, *_) = similar().rank(NamePhrase(("oxygen", "outlet")), [])
+        (best, *_) = similar().rank(NamePhrase(("oxygen", "outlet")), (), None, [])
         nearest = max(cosine("oxygen outlet", term.text, TERMS) for term in TERMS if term.class_iri == LAB + "Outlet")
         assert best.class_iri == LAB + "Outlet"
         assert best.score == pytest.approx(MATCHING.term_score * nearest)
 
     def test_a_whole_name_outweighs_its_head_noun(self):
-        ranked = similar().rank(NamePhrase(("oxygen", "wall", "outlet")), [own_match("Socket", 0.8)])
+        ranked = similar().rank(NamePhrase(("oxygen", "wall", "outlet")), (), None, [own_match("Socket", 0.8)])
         assert [match.class_iri for match in ranked] == [LAB + "Outlet", LAB + "Socket"]
         assert ranked[0].score == pytest.approx(MATCHING.term_score)
         assert "“oxygen wall outlet” is like “oxygen wall outlet”" in ranked[0].explanation
 
     def test_a_name_like_no_term_keeps_its_matches(self):
         matches = [own_match("Scanner", 0.8), own_match("Thing", 0.4)]
-        assert similar().rank(NamePhrase(("garden", "gnome")), matches) == tuple(matches)
+        assert similar().rank(NamePhrase(("garden", "gnome")), (), None, matches) == tuple(matches)
 
     def test_a_class_by_head_noun_and_similarity_keeps_its_explanation(self):
-        (best, *_) = similar().rank(NamePhrase(("wall", "socket")), [own_match("Socket", 0.9)])
+        (best, *_) = similar().rank(NamePhrase(("wall", "socket")), (), None, [own_match("Socket", 0.9)])
         assert best.explanation == "by its head noun"
         assert best.score == pytest.approx(MATCHING.term_score)
 
     def test_a_name_without_words_has_no_classes(self):
-        assert similar().rank(NamePhrase(()), []) == ()
+        assert similar().rank(NamePhrase(()), (), None, []) == ()
 
     def test_one_term_alone_is_found(self):
-        assert similar(TERMS[:1]).rank(NamePhrase(("oxygen", "wall", "outlet")), [])[0].class_iri == LAB + "Outlet"
+        assert similar(TERMS[:1]).rank(NamePhrase(("oxygen", "wall", "outlet")), (), None, [])[0].class_iri == LAB + "Outlet"
 
     @given(st.lists(st.text("abcdeé '<", min_size=1, max_size=6), max_size=5), st.floats(0, 1))
     def test_scores_are_shares_in_descending_order(self, words: list[str], score: float):
-        ranked = similar().rank(NamePhrase(tuple(words)), [own_match("Thing", score)])
+        ranked = similar().rank(NamePhrase(tuple(words)), (), None, [own_match("Thing", score)])
         scores = [match.score for match in ranked]
         assert scores == sorted(scores, reverse=True)
         assert all(0 <= value <= 1 for value in scores)

@@ -8,9 +8,8 @@ from usd2kg.grounding.lexical.alignment.lexicon import Lexicon
 from usd2kg.grounding.lexical.concepts.sizes import Size
 from usd2kg.grounding.lexical.concepts.taxonomy import Taxonomy
 from usd2kg.grounding.lexical.evidence_combination import ScoredClass
-from usd2kg.grounding.lexical.matching.head_matching import Match
+from usd2kg.grounding.lexical.matching.head_matching import ClassRanker, Match
 from usd2kg.grounding.lexical.matching.phrase_matching import PhraseMatcher
-from usd2kg.grounding.lexical.matching.similar_members import SimilarMembers
 from usd2kg.grounding.lexical.reading.abbreviations import AbbreviationReader, Reading
 from usd2kg.grounding.lexical.reading.english_words import SHORTEST_WORD, is_english_word
 from usd2kg.grounding.lexical.reading.evidence_texts import texts_of
@@ -50,13 +49,13 @@ class NameEvidence:
         taxonomy: Taxonomy,
         reader: NameReader,
         matcher: PhraseMatcher,
-        similar: SimilarMembers | None = None,
+        ranker: ClassRanker | None = None,
     ) -> None:
         self._lexicon = lexicon
         self._taxonomy = taxonomy
         self._reader = reader
         self._matcher = matcher
-        self._similar = similar
+        self._ranker = ranker
         self.match = lru_cache(maxsize=8192)(self._match)
         """(text, names above, extents in metres or None) → matches of the text, best first."""
 
@@ -169,7 +168,7 @@ class NameEvidence:
     def _match(self, text: str, parents: tuple[str, ...], size: Size | None = None) -> tuple[Match, ...]:
         phrase = self._reader.read(text, parents)
         matches = self._matcher.match(phrase, parents, size)
-        return tuple(matches) if self._similar is None else self._similar.rank(phrase, matches)
+        return tuple(matches) if self._ranker is None else self._ranker.rank(phrase, parents, size, matches)
 
 
 def _explain_match(match: Match, group: str) -> str:

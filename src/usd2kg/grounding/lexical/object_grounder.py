@@ -11,9 +11,12 @@ from usd2kg.grounding.lexical.alignment.lexicon import Lexicon
 from usd2kg.grounding.lexical.alignment.lexicon_json import lexicon_as_json, lexicon_of_json
 from usd2kg.grounding.lexical.alignment.terms import TermKind
 from usd2kg.grounding.lexical.candidate_evidence import CandidateEvidence, weigh_candidates
+from usd2kg.grounding.lexical.concepts.categories import invert_categories
 from usd2kg.grounding.lexical.concepts.taxonomy import Taxonomy, load_taxonomy
 from usd2kg.grounding.lexical.context_evidence import ContextEvidence
 from usd2kg.grounding.lexical.evidence_combination import CONTEXT_GROUPS, ScoredClass, combine_evidence
+from usd2kg.grounding.lexical.matching.head_matching import ClassRanker
+from usd2kg.grounding.lexical.matching.kind_ranking import KindRanker
 from usd2kg.grounding.lexical.matching.phrase_matching import PhraseMatcher
 from usd2kg.grounding.lexical.matching.similar_members import SimilarMembers
 from usd2kg.grounding.lexical.matching.term_matching import TermMatcher
@@ -75,16 +78,27 @@ class ObjectGrounder:
         terms = TermMatcher(self._tbox, self._lexicon, taxonomy, self.reader)
         self.matcher = PhraseMatcher(terms, taxonomy, self.reader)
         self._is_fallback = terms.is_fallback
-        self._words = NameEvidence(self._lexicon, taxonomy, self.reader, self.matcher, self._similar_members())
+        self._words = NameEvidence(self._lexicon, taxonomy, self.reader, self.matcher, self._class_ranker(tables))
         self._context = ContextEvidence(self._tbox, self._words, self.reader, self.matcher, tables)
 
-    def _similar_members(self) -> SimilarMembers | None:
-        """Return the search for similar terms; None without lists of a model, since labels alone do not help."""
+    def _class_ranker(self, tables: TableCache) -> ClassRanker | None:
+        """Return what ranks the classes of whole names; None if the head noun is enough.
+
+        That is so if the ontology has home classes, if usd2kg ships lists of what belongs to its classes, and if no
+        class applies to most objects, since no ranking can then say that an object has none.
+        """
         terms = self._lexicon.terms.values()
-        if all(term.kind is not TermKind.MODEL for term in terms):
+        kinds = {term.kind for term in terms}
+        if TermKind.MODEL in kinds:
+            known = [term for term in terms if term.class_iri in self._tbox.by_iri]
+            return SimilarMembers(known, self._taxonomy, self._tbox)
+        is_prepared = TermKind.LISTED in kinds or not self._lexicon.home_classes.isdisjoint(self._tbox.by_iri)
+        if is_prepared or self._lexicon.default_class in {None, NO_CLASS_IRI}:
             return None
-        known = [term for term in terms if term.class_iri in self._tbox.by_iri]
-        return SimilarMembers(known, self._taxonomy, self._tbox)
+        names = tables.get("kinds", _kinds_of_json, partial(invert_categories, self._taxonomy), dict)
+        return KindRanker(
+            self._tbox, self._lexicon, self._taxonomy, self.reader, self.matcher, partial(_kinds_in, names)
+        )
 
     def format_alignment(self, others: "Iterable[AlignmentRow]" = ()) -> str:
         """Return the alignment of the classes with concepts and terms, and other rows, as SSSOM/TSV."""
@@ -212,3 +226,11 @@ def _edited(built: "BuiltAlignment", taxonomy: Taxonomy) -> tuple[TBox, Lexicon]
 def _rooted_of_json(found: Any, tbox: TBox, taxonomy: Taxonomy) -> tuple[TBox, Lexicon]:
     rooted = with_root(tbox, found["default"] or NO_CLASS_IRI, taxonomy)
     return rooted, lexicon_of_json(found, rooted)
+
+
+def _kinds_of_json(found: Mapping[str, list[str]]) -> dict[int, tuple[str, ...]]:
+    return {int(synset): tuple(names) for synset, names in found.items()}
+
+
+def _kinds_in(names: Mapping[int, tuple[str, ...]], synset: int) -> tuple[str, ...]:
+    return names.get(synset, ())

@@ -21,6 +21,7 @@ __all__ = [
     "EVIDENCE",
     "FREQUENCY",
     "HEAD_NOUN",
+    "KIND_RANKING",
     "MATCHING",
     "MODIFIER",
     "PLACE",
@@ -47,6 +48,7 @@ __all__ = [
     "EvidenceSettings",
     "FrequencySettings",
     "HeadNounSettings",
+    "KindRankingSettings",
     "MatchingSettings",
     "ModifierSettings",
     "PlaceSettings",
@@ -198,6 +200,20 @@ class SimilaritySettings(NamedTuple):
     min_cosine: float
     letters: int
     letters_value: float
+
+
+class KindRankingSettings(NamedTuple):
+    """Comparison of the kinds of a noun with the labels and comments of a foreign ontology."""
+
+    min_score: float
+    min_head_share: float
+    tail_factor: float
+    sense_weights: tuple[float, ...]
+    step_factor: float
+    category_factor: float
+    least_idf: float
+    min_explained: float
+    max_classes: int
 
 
 class HeadNounSettings(NamedTuple):
@@ -370,6 +386,7 @@ TERMS = read_settings("lexical", "terms", TermSettings)
 ALIGNMENT = read_settings("lexical", "alignment", AlignmentSettings)
 ROUTES = read_settings("lexical", "routes", RouteSettings)
 MATCHING = read_settings("lexical", "matching", MatchingSettings)
+KIND_RANKING = read_settings("lexical", "kind_ranking", KindRankingSettings)
 SIMILARITY = read_settings("lexical", "similar_members", SimilaritySettings)
 HEAD_NOUN = read_settings("lexical", "head_noun", HeadNounSettings)
 CLASSIFIER = read_settings("lexical", "classifier", ClassifierSettings)

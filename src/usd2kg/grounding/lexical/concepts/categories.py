@@ -1,13 +1,16 @@
 """Categories of common usage that WordNet does not model as hypernyms: a stapler is office stationery."""
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from functools import lru_cache
 from typing import NamedTuple
 
 from usd2kg.grounding.lexical.concepts.taxonomy import Taxonomy
 from usd2kg.knowledge import read_rows
 
-__all__ = ["Category", "find_synset", "members_of"]
+__all__ = ["Category", "KindNames", "find_synset", "invert_categories", "members_of"]
+
+KindNames = Callable[[int], tuple[str, ...]]
+"""Synset → names of the categories that it is a member of."""
 
 
 class Category(NamedTuple):
@@ -32,6 +35,18 @@ def find_synset(name: str, taxonomy: Taxonomy) -> int | None:
     lemma, _, rank = name.replace(" ", "").replace("-", "").partition("#")
     senses = taxonomy.senses(lemma)[int(rank or 1) - 1 :]
     return senses[0].synset if senses else None
+
+
+def invert_categories(taxonomy: Taxonomy) -> dict[int, tuple[str, ...]]:
+    """Return synset → names of the categories that it is a member of itself, not by a hypernym."""
+    kinds: dict[int, list[str]] = {}
+    for row in read_rows("categories.csv"):
+        names = row["kinds"].split("|")
+        for member in row["members"].split("|"):
+            synset = find_synset(member, taxonomy)
+            if synset is not None:
+                kinds.setdefault(synset, []).extend(names)
+    return {synset: tuple(names) for synset, names in kinds.items()}
 
 
 @lru_cache(maxsize=1)

@@ -1,12 +1,13 @@
 """HeadMatcher: resolves the words up to a head noun to classes of a TBox or to concepts."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from typing import NamedTuple, Protocol
 
+from usd2kg.grounding.lexical.concepts.sizes import Size
 from usd2kg.grounding.lexical.reading.noun_phrase import NamePhrase
 from usd2kg.ontology import ClassIRI
 
-__all__ = ["HeadMatcher", "HeadMatches", "Match"]
+__all__ = ["ClassRanker", "HeadMatcher", "HeadMatches", "Match"]
 
 
 class Match(NamedTuple):
@@ -71,4 +72,21 @@ class HeadMatcher(Protocol):
 
     def is_subclass(self, special: ClassIRI, general: ClassIRI) -> bool:
         """Return whether one meaning is a kind of the other, or the same."""
+        ...
+
+
+class ClassRanker(Protocol):
+    """Ranks the classes of a whole name."""
+
+    def rank(
+        self, phrase: NamePhrase, parents: tuple[str, ...], size: Size | None, matches: Sequence[Match]
+    ) -> tuple[Match, ...]:
+        """Return the classes of a name, best first.
+
+        Args:
+            phrase: the name.
+            parents: the names of the prims above, outermost first.
+            size: extents of the object in metres, in any order.
+            matches: the classes by the head noun, best first.
+        """
         ...

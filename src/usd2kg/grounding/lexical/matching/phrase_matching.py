@@ -164,6 +164,16 @@ class PhraseMatcher:
         ]
         return tuple(sorted(matches, key=lambda match: (-match.score, match.class_iri))), total
 
+    def head_shares(
+        self, phrase: NamePhrase, parents: tuple[str, ...], size: Size | None
+    ) -> list[tuple[float, tuple[str, ...]]]:
+        """Return each known compound that the words up to a possible head noun end with, and its probability."""
+        found = [
+            (head_likelihood(features), head.words) for _, features, head in self.head_candidates(phrase, parents, size)
+        ]
+        total = sum([likelihood for likelihood, _ in found])
+        return [(likelihood / total, words) for likelihood, words in found]
+
     def find_object_row(self, phrase: NamePhrase) -> int | None:
         """Return the row in `everyday_objects.csv` of the object that a phrase names by its last words, or None."""
         if not phrase.words:

@@ -14,6 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from usd2kg.grounding.lexical.alignment.terms import Term
+from usd2kg.grounding.lexical.concepts.sizes import Size
 from usd2kg.grounding.lexical.concepts.taxonomy import Taxonomy
 from usd2kg.grounding.lexical.matching.head_matching import Match
 from usd2kg.grounding.lexical.reading.noun_phrase import NamePhrase
@@ -39,10 +40,18 @@ class SimilarMembers:
                 columns.setdefault(feature, []).append((row, value))
         self._columns = {feature: _column(entries) for feature, entries in columns.items()}
 
-    def rank(self, phrase: NamePhrase, matches: Sequence[Match]) -> tuple[Match, ...]:
+    def rank(
+        self, phrase: NamePhrase, parents: tuple[str, ...], size: Size | None, matches: Sequence[Match]
+    ) -> tuple[Match, ...]:
         """Return the matches of a name and the classes of similar terms, ranked by both, best first.
 
         The best one gets the highest score of a match, or the score of a term times its cosine if that is higher.
+
+        Args:
+            phrase: the name.
+            parents: the names above, which do not matter.
+            size: the extents, which do not matter.
+            matches: the classes by the head noun.
         """
         similar = self._find(phrase.words)
         own = {match.class_iri: match for match in matches}
