@@ -4,8 +4,8 @@ Usage: python -m benchmarks.relations.judged [SCENE...] (default: all)
 
 The lists are in `judged`; `on` and `inside` of the demo kitchen are written with the scene. The real scenes are read
 from the folder that the variable USD2KG_SHARED names, `../shared` by default, the FZK house from the Debian package
-assimp-testmodels, or the folder USD2KG_ASSIMP_MODELS; `benchmarks.scenes.garage.build` writes the garage. A missing one
-is skipped.
+assimp-testmodels, or the folder USD2KG_ASSIMP_MODELS; `benchmarks.scenes.garage.build` writes the garage,
+`benchmarks.scenes.salon.build` the salon. A missing one is skipped.
 """
 
 import csv
@@ -22,6 +22,8 @@ from benchmarks.intervals import wilson
 from benchmarks.labelled_scenes import ROOT, SHARED
 from benchmarks.scenes.garage.build import COMMAND as BUILD_GARAGE
 from benchmarks.scenes.garage.build import STAGE as GARAGE
+from benchmarks.scenes.salon.build import COMMAND as BUILD_SALON
+from benchmarks.scenes.salon.build import STAGE as SALON
 from usd2kg.demo import demo_relations, demo_scene
 from usd2kg.relations import Relation
 
@@ -61,6 +63,7 @@ SCENES = {
     ),
     "warehouse": Sources(ROOT / "benchmarks/scenes/warehouse/warehouse.usda", (HERE / "judged/warehouse.csv",)),
     "garage": Sources(GARAGE, (HERE / "judged/garage.csv",), f"run {BUILD_GARAGE}"),
+    "salon": Sources(SALON, (HERE / "judged/salon.csv",), f"run {BUILD_SALON}"),
 }
 
 
