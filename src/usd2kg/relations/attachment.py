@@ -1,5 +1,6 @@
 """`attached-to`: what hangs from an object or is fixed to it, with nothing below."""
 
+from collections.abc import Sequence
 from typing import NamedTuple
 
 import numpy as np
@@ -9,13 +10,14 @@ from usd2kg.relations.array_records import concatenate_rows, first_of_each_group
 from usd2kg.relations.backing import are_between
 from usd2kg.relations.boxed_objects import BoxedObjects, ClassMembership
 from usd2kg.relations.distances import box_gaps, surface_distances
+from usd2kg.relations.interlock import are_interlocked, held_at
 from usd2kg.relations.model import Links, margin_below, margin_score
 from usd2kg.relations.stronger import StrongerRelations
 from usd2kg.relations.thresholds import AttachedRule
 from usd2kg.shapes import overlapping_pairs
 from usd2kg.shapes.ragged import ragged_indices
 
-__all__ = ["find_attached", "find_held_beside_support"]
+__all__ = ["find_attached", "find_doubtful", "find_held_beside_support"]
 
 Array = NDArray[np.float64]
 Indices = NDArray[np.int64]
@@ -23,6 +25,10 @@ Mask = NDArray[np.bool_]
 
 _NO_MOUNT = 1.0
 """Metres added to the gap of an object beside the target, so that every wall, ceiling or object above is nearer."""
+_HOOKED = -1.0
+"""The same for an object that the target hangs from by a hook or a loop: nothing is nearer…"""
+_RESTING = -2.0
+"""…but what the target rests on."""
 
 
 class _Mounts(NamedTuple):
@@ -35,6 +41,10 @@ class _Mounts(NamedTuple):
     """Largest gap, metres."""
     hangs: Mask
     """Whether the anchor is above the middle of the target."""
+    locks: Mask
+    """Whether the anchor goes through the target, which hangs from it rather than the other way round."""
+    rests: Mask
+    """Whether the target rests on the anchor, if nothing else holds it."""
 
 
 def find_attached(
@@ -44,27 +54,30 @@ def find_attached(
     rule: AttachedRule,
     *,
     needs_mount: bool,
+    doubtful: Sequence[Links] = (),
+    hovering: Indices | None = None,
 ) -> Links:
     """Return the `attached-to` links of objects that are on, in and part of nothing so far.
 
     Walls and ceilings hold whatever is within a few centimetres, other objects what touches them. What reaches down to
     the ground stands on it, and so does furniture on a plinth or legs, even where no floor is drawn. Walls and ceilings
-    hold each other only where one lies on a much larger one, as a panel does.
+    hold each other only where one lies on a much larger one, as a panel does. What goes through a hook, a pin or a
+    rail hangs from it rather than from the wall behind.
 
     Args:
         boxed: the objects.
         classes: membership in class lists.
         stronger: the relations found so far.
         rule: the thresholds.
-        needs_mount: return only objects near a wall or ceiling.
+        needs_mount: return only objects near a wall or ceiling, or on a hook with nothing below.
+        hovering: objects that are not far above something.
+        doubtful: `on` links that do not count as found so far, see `find_doubtful`.
     """
     is_mount = classes.are_in("mounts")[boxed.scene_index]
-    may_hang = stronger.is_free & (is_mount | ~classes.are_in("not_attached")[boxed.scene_index])
-    clearance = np.where(classes.are_in("standing")[boxed.scene_index], rule.max_plinth, rule.min_clearance)
     hangs = classes.are_in("hanging")[boxed.scene_index]
-    clearance[hangs] = 0.0
-    targets = np.flatnonzero(may_hang)
-    targets = targets[boxed.lower[targets, 2] - _ground_below(boxed, targets, rule) >= clearance[targets]]
+    targets = _hanging(boxed, classes, stronger, rule)
+    is_doubtful = np.zeros(len(boxed), np.bool_)
+    is_doubtful[[index for links in doubtful for index in links.target.tolist()]] = True
     # The box of a mesh of several walls does not locate the walls.
     is_located = boxed.has_surface | (boxed.size.min(axis=1) <= rule.max_wall_thickness) | ~is_mount
     may_hold = is_located & ~classes.are_in("not_mounts")[boxed.scene_index]
@@ -78,13 +91,64 @@ def find_attached(
     pairs = select_rows(pairs, ~(is_beside & _meet_below_middle(boxed, pairs, rule)))
     gap = surface_distances(boxed, pairs.target, pairs.anchor, pairs.limit)
     pairs = select_rows(pairs._replace(gap=gap), gap <= pairs.limit)
+    touches = pairs.locks & (pairs.gap <= rule.max_touch)
+    pairs = pairs._replace(locks=touches & ~_are_closer_to_mounts(boxed, pairs, is_mount, rule))
     pairs = select_rows(pairs, ~_are_backed(boxed, pairs, is_mount, rule))
     if needs_mount:
-        pairs = select_rows(pairs, np.isin(pairs.target, pairs.target[is_mount[pairs.anchor]]))
+        is_hooked = pairs.locks & ~np.isin(pairs.target, [] if hovering is None else hovering)
+        pairs = select_rows(pairs, np.isin(pairs.target, pairs.target[is_mount[pairs.anchor] | is_hooked]))
+    # What rests on something, as far as known, hangs from a mount or a hook or not at all, and only a hook hangs on it.
+    is_firm = pairs.locks | (is_mount[pairs.anchor] & ~is_doubtful[pairs.anchor])
+    pairs = select_rows(pairs, is_firm | ~(is_doubtful[pairs.target] | is_doubtful[pairs.anchor]))
+    pairs = concatenate_rows([pairs, *(_resting(links.where(~hangs[links.target])) for links in doubtful)])
     best = _nearest_held(boxed, pairs, is_mount, rule)
-    best = select_rows(best, ~_are_beside_unheld(boxed, best, targets, is_mount, rule))
+    best = select_rows(best, ~best.rests & ~_are_beside_unheld(boxed, best, targets, is_mount, rule))
     confidence = margin_score(margin_below(np.clip(best.gap, 0, None), best.limit))
     return Links("attached-to", rule.rule, best.target, best.anchor, {"gap": best.gap}, confidence)
+
+
+def find_doubtful(
+    boxed: BoxedObjects,
+    classes: ClassMembership,
+    stronger: StrongerRelations,
+    support: Sequence[Links],
+    rule: AttachedRule,
+) -> Mask:
+    """Return for each object whether what it is on may hang from it instead: a hanger on the coat that it carries.
+
+    Nothing holds such a supporter so far. What hangs by its nature is on nothing for certain.
+
+    Args:
+        boxed: the objects.
+        classes: membership in class lists.
+        stronger: the relations found so far.
+        support: the `on` links found so far.
+        rule: the thresholds.
+    """
+    dangles = np.zeros(len(boxed), np.bool_)
+    dangles[_hanging(boxed, classes, stronger, rule)] = True
+    dangles &= ~classes.are_in("mounts")[boxed.scene_index]
+    hangs = classes.are_in("hanging")[boxed.scene_index]
+    doubtful = np.zeros(len(boxed), np.bool_)
+    for links in support:
+        doubtful[links.target[dangles[links.anchor] | hangs[links.target]]] = True
+    return doubtful
+
+
+def _hanging(boxed: BoxedObjects, classes: ClassMembership, stronger: StrongerRelations, rule: AttachedRule) -> Indices:
+    """Return the objects that are on, in and part of nothing so far, and too high above the ground to stand on it."""
+    is_mount = classes.are_in("mounts")[boxed.scene_index]
+    may_hang = stronger.is_free & (is_mount | ~classes.are_in("not_attached")[boxed.scene_index])
+    clearance = np.where(classes.are_in("standing")[boxed.scene_index], rule.max_plinth, rule.min_clearance)
+    clearance[classes.are_in("hanging")[boxed.scene_index]] = 0.0
+    targets = np.flatnonzero(may_hang)
+    return np.asarray(targets[boxed.lower[targets, 2] - _ground_below(boxed, targets, rule) >= clearance[targets]])
+
+
+def _resting(links: Links) -> _Mounts:
+    count = len(links.target)
+    no, yes = np.zeros(count, np.bool_), np.ones(count, np.bool_)
+    return _Mounts(links.target, links.anchor, np.zeros(count), np.full(count, np.inf), no, no, yes)
 
 
 def find_held_beside_support(
@@ -144,16 +208,23 @@ def _near_pairs(
 ) -> _Mounts:
     widest = np.maximum(reach, rule.max_contact)[:, None]
     lower, upper = boxed.lower - widest, boxed.upper + widest
-    none = np.zeros(0, np.int64)
-    found = [_Mounts(none, none, np.zeros(0), np.zeros(0), np.zeros(0, np.bool_))]
+    none, no = np.zeros(0, np.int64), np.zeros(0, np.bool_)
+    found = [_Mounts(none, none, np.zeros(0), np.zeros(0), no, no, no)]
+    is_target = np.zeros(len(boxed), np.bool_)
+    is_target[targets] = True
     others = boxed.lower[holders], boxed.upper[holders]
     for i, j in overlapping_pairs(lower[targets], upper[targets], others):
         target, anchor = targets[i], holders[j]
         hangs = boxed.lower[anchor, 2] >= boxed.middle[target, 2]
         limit = np.where(is_mount[anchor], reach[target], rule.max_contact)
         is_near = (lower[target, 2] <= boxed.upper[anchor, 2]) & (upper[target, 2] >= boxed.lower[anchor, 2])
-        is_near &= (target != anchor) & (is_mount[anchor] | hangs | (boxed.volume[anchor] > boxed.volume[target]))
-        found.append(select_rows(_Mounts(target, anchor, np.zeros(len(target)), limit, hangs), is_near))
+        locks = ~is_mount[anchor] & are_interlocked(boxed, target, anchor, rule.min_interlock)
+        hung = held_at(boxed, target, anchor)
+        locks &= hung > np.where(is_target[anchor], held_at(boxed, anchor, target) + rule.min_hold, -rule.min_hold)
+        is_larger = boxed.volume[anchor] > boxed.volume[target]
+        is_near &= (target != anchor) & (is_mount[anchor] | hangs | locks | is_larger)
+        no = np.zeros(len(target), np.bool_)
+        found.append(select_rows(_Mounts(target, anchor, no.astype(np.float64), limit, hangs, locks, no), is_near))
     return concatenate_rows(found)
 
 
@@ -207,6 +278,16 @@ def _are_backed(boxed: BoxedObjects, pairs: _Mounts, is_mount: Mask, rule: Attac
     return backed
 
 
+def _are_closer_to_mounts(boxed: BoxedObjects, pairs: _Mounts, is_mount: Mask, rule: AttachedRule) -> Mask:
+    """Return for each pair whether the target touches a wall or ceiling, but not the anchor: a board below a magnet."""
+    touches = is_mount[pairs.anchor] & (pairs.gap <= rule.max_touch)
+    is_at_mount = np.zeros(len(boxed), np.bool_)
+    is_at_mount[pairs.target[touches]] = True
+    is_target = np.zeros(len(boxed), np.bool_)
+    is_target[pairs.target] = True
+    return np.asarray(is_at_mount[pairs.target] & is_target[pairs.anchor] & ~is_at_mount[pairs.anchor])
+
+
 def _are_beside_unheld(
     boxed: BoxedObjects, pairs: _Mounts, targets: Indices, is_mount: Mask, rule: AttachedRule
 ) -> Mask:
@@ -226,7 +307,7 @@ def _are_beside_unheld(
     is_unheld[is_mount] = False
     is_unheld[pairs.target] = False
     is_comparable = boxed.volume[pairs.anchor] < rule.min_bearing_ratio * boxed.volume[pairs.target]
-    may_drop = ~pairs.hangs & ~is_mount[pairs.anchor] & is_comparable
+    may_drop = ~(pairs.hangs | pairs.locks) & ~is_mount[pairs.anchor] & is_comparable
     dropped = np.zeros(len(pairs.target), np.bool_)
     while (more := may_drop & ~dropped & is_unheld[pairs.anchor]).any():
         dropped |= more
@@ -237,25 +318,48 @@ def _are_beside_unheld(
 def _nearest_held(boxed: BoxedObjects, pairs: _Mounts, is_mount: Mask, rule: AttachedRule) -> _Mounts:
     """Return the best anchor of each target, from what is held to what hangs from it.
 
-    A wall or ceiling takes precedence over an object beside the target, and over one above that is hardly nearer.
+    What the target hangs from by a hook comes before the wall behind, at least if that does not touch the target. A
+    wall or ceiling takes precedence over an object beside the target, and over one above that is hardly nearer.
     """
     pending = np.zeros(len(boxed), np.bool_)
     pending[pairs.target] = True
     penalty = np.where(pairs.hangs, rule.mount_preference, _NO_MOUNT)
     distance = np.clip(pairs.gap, 0, None) + np.where(is_mount[pairs.anchor], 0.0, penalty)
+    distance = np.where(pairs.locks, np.where(pairs.hangs, _HOOKED, rule.max_touch), distance)
+    distance[pairs.rests] = _RESTING
     chosen = [np.zeros(0, np.int64)]
     while True:
-        best = _best(boxed, pairs, np.flatnonzero(pending[pairs.target]), distance)
-        best = best[~pending[pairs.anchor[best]]]
+        first = _best(boxed, pairs, np.flatnonzero(pending[pairs.target]), distance)
+        best = first[~pending[pairs.anchor[first]]]
         if not len(best):
-            # The rest hang from each other; begin with those that something else holds.
+            # The rest hang from each other; begin with those that something else holds more closely than their best.
             is_held = pending[pairs.target] & ~pending[pairs.anchor]
             best = _best(boxed, pairs, np.flatnonzero(is_held), distance)
+            closer = _held_more_closely(boxed, pairs, first, best, distance, rule.max_touch)
+            best = closer if len(closer) else best
+            touching = best[distance[best] <= rule.max_contact]
+            best = touching if len(touching) else best
         if not len(best):
             break
         chosen.append(best)
         pending[pairs.target[best]] = False
     return select_rows(pairs, np.sort(np.concatenate(chosen)))
+
+
+def _held_more_closely(
+    boxed: BoxedObjects, pairs: _Mounts, first: Indices, held: Indices, distance: Array, margin: float
+) -> Indices:
+    """Return the pairs of `held` whose targets are closer to what is held than their best anchor, of `first`, is.
+
+    Within the margin, what hangs on a hook waits for the hook.
+    """
+    nearest, slack = np.full(len(boxed), np.inf), np.full(len(boxed), margin)
+    nearest[pairs.target[held]] = distance[held]
+    desired = np.full(len(boxed), -1)
+    desired[pairs.target[first]] = pairs.anchor[first]
+    slack[pairs.target[first[pairs.locks[first]]]] = -margin
+    target = pairs.target[held]
+    return np.asarray(held[distance[held] <= nearest[desired[target]] + slack[target]])
 
 
 def _best(boxed: BoxedObjects, pairs: _Mounts, some: Indices, distance: Array) -> Indices:

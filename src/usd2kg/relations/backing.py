@@ -4,18 +4,20 @@ import numpy as np
 from numpy.typing import NDArray
 
 from usd2kg.relations.boxed_objects import BoxedObjects
-from usd2kg.relations.distances import box_gaps
 from usd2kg.relations.enclosure import points_of
 from usd2kg.shapes.axis_rays import find_crossings
 
 __all__ = ["are_between"]
 
+Array = NDArray[np.float64]
 Indices = NDArray[np.int64]
 Mask = NDArray[np.bool_]
 
 
 def are_between(boxed: BoxedObjects, between: Indices, target: Indices, wall: Indices, min_share: float) -> Mask:
-    """Return for each row whether a surface is between the target and the wall, along the axis on which they are apart.
+    """Return for each row whether a surface is between the target and the wall, in the direction of its nearest face.
+
+    The box of a wall may be that of all walls of a flat, so that its surface counts where it is known.
 
     Args:
         boxed: the objects.
@@ -24,19 +26,47 @@ def are_between(boxed: BoxedObjects, between: Indices, target: Indices, wall: In
         wall: indices of the walls.
         min_share: share of the rays from the target to the wall that meet what is between.
     """
-    axes = box_gaps(boxed, target, wall).argmax(axis=1)
     found = np.zeros(len(target), np.bool_)
-    for axis in range(boxed.lower.shape[1]):
-        rows = np.flatnonzero((axes == axis) & boxed.has_surface[between])
-        points = [points_of(boxed, index) for index in target[rows].tolist()]
-        surfaces = [surface for index in between[rows].tolist() if (surface := boxed.surfaces[index]) is not None]
-        count = np.array([len(some) for some in points], np.int64)
-        owner = np.repeat(rows, count)
-        start = np.concatenate([np.zeros(0), *(some[:, axis] for some in points)])
-        crossings = find_crossings(points, surfaces, axis)
-        row, begin = owner[crossings.line], start[crossings.line]
-        low, high = boxed.lower[wall[row], axis], boxed.upper[wall[row], axis]
-        is_met = ((begin < crossings.at) & (crossings.at <= low)) | ((high <= crossings.at) & (crossings.at < begin))
-        met = np.bincount(owner[np.unique(crossings.line[is_met])], minlength=len(target))
-        found[rows] = met[rows] >= min_share * count
+    rows = np.flatnonzero(boxed.has_surface[between])
+    if not len(rows):
+        return found
+    points = {index: points_of(boxed, index) for index in np.unique(target[rows]).tolist()}
+    starts = [points[index] for index in target[rows].tolist()]
+    count = np.array([len(some) for some in starts], np.int64)
+    to_wall = _first_hits(boxed, starts, wall[rows])
+    to_other = _first_hits(boxed, starts, between[rows])
+    row = np.repeat(np.arange(len(rows)), count)
+    reach = np.full((len(rows), to_wall.shape[1]), np.inf)
+    np.minimum.at(reach, row, to_wall)
+    side = reach.argmin(axis=1)[row]
+    line = np.arange(len(row))
+    is_met = to_other[line, side] <= to_wall[line, side]
+    is_met &= np.isfinite(to_other[line, side])
+    found[rows] = np.bincount(row, is_met, len(rows)) >= min_share * count
     return found
+
+
+def _first_hits(boxed: BoxedObjects, points: list[Array], others: Indices) -> Array:
+    """Return how far it is from each point to an object (points, directions), against and along x, y and z; else inf.
+
+    An object without a surface is as far as the faces of its box, beside the point or not.
+    """
+    axes = boxed.lower.shape[1]
+    begin = np.concatenate(points)
+    row = np.repeat(np.arange(len(points)), [len(some) for some in points])
+    hits = np.full((len(begin), 2 * axes), np.inf)
+    known = np.flatnonzero(boxed.has_surface[others])
+    surfaces = [surface for index in others[known].tolist() if (surface := boxed.surfaces[index]) is not None]
+    lines = np.flatnonzero(boxed.has_surface[others][row])
+    boxes = np.flatnonzero(~boxed.has_surface[others][row])
+    for axis in range(axes):
+        away = boxed.lower[others[row[boxes]], axis] - begin[boxes, axis]
+        hits[boxes[away >= 0], 2 * axis + 1] = away[away >= 0]
+        away = begin[boxes, axis] - boxed.upper[others[row[boxes]], axis]
+        hits[boxes[away >= 0], 2 * axis] = away[away >= 0]
+        if len(known):
+            crossings = find_crossings([points[place] for place in known.tolist()], surfaces, axis)
+            line = lines[crossings.line]
+            away = crossings.at - begin[line, axis]
+            np.minimum.at(hits, (line, 2 * axis + (away >= 0)), np.abs(away))
+    return hits

@@ -79,6 +79,7 @@ def find_inside(boxed: BoxedObjects, classes: ClassMembership, wholes: Indices, 
             may &= is_open[anchor]
             found.append(_standing(boxed, target[may], anchor[may], rules.standing_in))
     pairs = concatenate_rows(found)
+    pairs = select_rows(pairs, ~_are_lids(boxed, pairs))
     pairs = select_rows(pairs, _surfaces_agree(boxed, pairs, is_open, wholes, rules))
     return _smallest(boxed, select_rows(pairs, ~_are_on_top(boxed, pairs, ~is_open, rules)), rules)
 
@@ -149,6 +150,12 @@ def _standing(boxed: BoxedObjects, target: Indices, anchor: Indices, rule: Stand
     return select_rows(_ContainmentPairs(target, anchor, over * depth, clear, ~no, no), is_good)
 
 
+def _are_lids(boxed: BoxedObjects, pairs: _ContainmentPairs) -> Mask:
+    """Return for each pair whether the target is broader than the anchor and in its upper half: a lid over a box."""
+    is_broader = (boxed.size[pairs.target, :2] > boxed.size[pairs.anchor, :2]).all(axis=1)
+    return np.asarray(is_broader & (boxed.lower[pairs.target, 2] > boxed.middle[pairs.anchor, 2]))
+
+
 def _surfaces_agree(
     boxed: BoxedObjects, pairs: _ContainmentPairs, is_open: Mask, wholes: Indices, rules: RelationRules
 ) -> Mask:
@@ -161,8 +168,8 @@ def _surfaces_agree(
     known = np.flatnonzero(boxed.has_surface[pairs.anchor] & ~is_drawer)
     some, rule = select_rows(pairs, known), rules.inside
     found = measure_enclosures(boxed, some.target, some.anchor)
-    is_caged = (found.below < rule.min_below) & (found.caged >= rule.min_caged)
-    is_in = ((found.below >= rule.min_below) & (found.beside >= rule.min_beside)) | is_caged
+    is_in = (found.beside >= rule.min_beside) & (found.below >= rule.min_below)
+    is_in |= found.caged >= rule.min_caged
     is_in &= (found.buried <= rule.max_buried) | ~is_open[some.anchor]
     is_around = np.minimum(np.minimum(found.below, found.above), found.beside) >= rule.min_surrounded
     is_around &= some.is_surrounded
@@ -173,7 +180,7 @@ def _surfaces_agree(
     is_deep = depth >= rule.min_cavity_depth * boxed.size[some.anchor, :2].min(axis=1)
     is_around |= is_deep & (found.below >= rule.min_surrounded) & (found.beside >= rule.min_walled)
     is_around &= found.buried <= rule.max_buried
-    stands = np.maximum(found.beside, found.caged) >= rules.standing_in.min_beside
+    stands = (found.beside >= rules.standing_in.min_beside) | (found.caged >= rule.min_caged)
     agrees[known] = np.where(some.sticks_out, stands, np.where(some.is_surrounded, is_around, is_in))
     return agrees
 
@@ -203,7 +210,9 @@ def _smallest(boxed: BoxedObjects, pairs: _ContainmentPairs, rules: RelationRule
     keys = (boxed.rank[pairs.anchor], pairs.sticks_out, boxed.volume[pairs.anchor])
     best = first_of_each_group(pairs.target, keys)
     is_round = is_on_cycle(_pointers(boxed, pairs, best), pairs.target[best])
-    best = best[~is_round]
+    # Of a bin and the bag in it, the one that starts lower is outside.
+    starts_higher = boxed.lower[pairs.target[best], 2] > boxed.lower[pairs.anchor[best], 2]
+    best = best[~is_round | starts_higher]
     links = []
     is_surrounded, sticks_out = pairs.is_surrounded[best], pairs.sticks_out[best]
     chosen_by = {

@@ -32,8 +32,8 @@ class Enclosures(NamedTuple):
     beside: Array
     """In the four horizontal directions, the mean."""
     buried: Array
-    """Of all rays: those that start within the material, not in a cavity. Nothing is within it below the open sky: the
-    faces of a basin may point either way."""
+    """Of the rays from above the feet: those that start within the material, not in a cavity. Nothing is within it
+    below the open sky: the faces of a basin may point either way. The feet may be drawn into the floor of a basket."""
     caged: Array
     """Share of the four sides beyond which the surface has corners, at the height of the object and no farther than it
     is long: the wires of a rack, which rays miss."""
@@ -61,13 +61,22 @@ def _measure_some(boxed: BoxedObjects, target: Indices, anchor: Indices) -> Encl
         hits, buried = _cast([within[pair] for pair in some.tolist()], surfaces)
         found.below[some], found.above[some] = hits[_UP]
         found.beside[some] = hits[:_UP].mean(axis=(0, 1))
-        found.buried[some] = buried
+        found.buried[some] = _raised_share(boxed, target[some], [within[pair] for pair in some.tolist()], buried)
     for pair in some.tolist():
         one, other = pairs[pair]
         surface = boxed.surfaces[other]
         assert surface is not None, "anchors have a surface"
         found.caged[pair] = _caged(surface, boxed.lower[one], boxed.upper[one])
     return found
+
+
+def _raised_share(boxed: BoxedObjects, target: Indices, points: Sequence[Array], buried: Array) -> Array:
+    """Return the mean of `buried` over the points of each target that are above its feet; over all if none is."""
+    level = boxed.lower[target, _UP] + boxed.geometry.foot_height
+    raised = [some[:, _UP] > low for some, low in zip(points, level.tolist(), strict=True)]
+    weights = np.concatenate([some if some.any() else ~some for some in raised]).astype(np.float64)
+    row = np.repeat(np.arange(len(points)), [len(some) for some in points])
+    return np.asarray(np.bincount(row, weights * buried, len(points)) / np.bincount(row, weights, len(points)))
 
 
 def measure_flanks(boxed: BoxedObjects, target: Indices, anchor: Indices, depth_share: float) -> Array:
@@ -122,7 +131,7 @@ _GRID = np.stack(np.meshgrid(_STEPS, _STEPS, _STEPS), axis=-1).reshape(-1, 3)
 
 
 def _cast(points: Sequence[Array], surfaces: Sequence[Surface]) -> tuple[Array, Array]:
-    """Return the shares of rays (axis, against or along it, pair) that meet a surface, and of buried ones (pair)."""
+    """Return the shares of rays (axis, against or along it, pair) that meet a surface, and of buried ones (point)."""
     count = np.array([len(inner) for inner in points], np.int64)
     pair = np.repeat(np.arange(len(points)), count)
     orientation = np.repeat(np.array([surface.orientation for surface in surfaces]), count)
@@ -141,8 +150,7 @@ def _cast(points: Sequence[Array], surfaces: Sequence[Surface]) -> tuple[Array, 
             within += leaves > 0
             # The last rays go up.
             is_covered = is_hit
-    buried = np.bincount(pair, within * is_covered, len(points)) / count
-    return hits, buried / (2 * _AXES)
+    return hits, within * is_covered / (2 * _AXES)
 
 
 def _caged(surface: Surface, lower: Array, upper: Array) -> float:

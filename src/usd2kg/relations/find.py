@@ -18,7 +18,7 @@ from usd2kg.relations.adjacency import (
     measure_surface_distances,
 )
 from usd2kg.relations.array_records import select_rows
-from usd2kg.relations.attachment import find_attached, find_held_beside_support
+from usd2kg.relations.attachment import find_attached, find_doubtful, find_held_beside_support
 from usd2kg.relations.between import find_between
 from usd2kg.relations.boxed_objects import BoxedObjects, ClassMembership
 from usd2kg.relations.connections import (
@@ -39,7 +39,7 @@ from usd2kg.relations.plan_membership import find_plan_members
 from usd2kg.relations.room_membership import find_rooms, placed_in_rooms
 from usd2kg.relations.sides import find_sides
 from usd2kg.relations.stronger import StrongerRelations
-from usd2kg.relations.support import find_hovering, find_support
+from usd2kg.relations.support import Support, find_hovering, find_propped, find_support
 from usd2kg.scene import Scene
 from usd2kg.tracing import traced
 
@@ -95,12 +95,31 @@ class _Finder:
         support = find_support(self.boxed, self.classes, stronger.is_loose, containment.container, self.rules)
         resting = stronger.add_support(support.links)
         # What is near a wall hangs there rather than hovering over what is below; the rest may hang from what hovers.
-        attached = self._attached(stronger, needs_mount=True)
+        is_doubtful = find_doubtful(self.boxed, self.classes, stronger, resting, self.rules.attached)
+        doubtful = [links.where(is_doubtful[links.target]) for links in resting]
+        stronger.withdraw_support(resting, is_doubtful)
+        hovering = find_hovering(self.boxed, support.near, stronger.is_free & ~is_doubtful, self.rules)
+        attached = find_attached(
+            self.boxed,
+            self.classes,
+            stronger,
+            self.rules.attached,
+            needs_mount=True,
+            doubtful=doubtful,
+            hovering=hovering.target,
+        )
+        stronger.add_attached(attached)
+        stronger.add_support([links.where(~stronger.is_attached[links.target]) for links in doubtful])
+        resting = [links.where(~(is_doubtful & stronger.is_attached)[links.target]) for links in resting]
         beside = find_held_beside_support(self.boxed, self.classes, resting[0], attached, self.rules.attached)
         yield from stronger.replace_support(resting, beside)
-        yield from (attached, beside)
-        yield from stronger.add_support([find_hovering(self.boxed, support.near, stronger.is_free, self.rules)])
-        yield self._attached(stronger, needs_mount=False)
+        yield beside
+        yield from self._propped(attached, support)
+        may_hover = stronger.may_hover & ~support.at_floor
+        yield from stronger.add_support([find_hovering(self.boxed, support.near, may_hover, self.rules)])
+        fixed = find_attached(self.boxed, self.classes, stronger, self.rules.attached, needs_mount=False)
+        stronger.add_attached(fixed)
+        yield from self._propped(fixed, support)
         if kinds & ROOM_KINDS:
             yield from self._rooms(wholes)
         takes_part = ~self.classes.are_in("not_neighbours")[self.boxed.scene_index]
@@ -110,6 +129,12 @@ class _Finder:
             yield above
             yield reverse_links("below", above)
         yield from self._adjacent(kinds, takes_part, stronger)
+
+    def _propped(self, attached: Links, support: Support) -> Iterator[Links]:
+        """Yield `attached-to` links, but `on` links where the anchor is below the feet of the target as well."""
+        propped = find_propped(self.boxed, support.near, attached, self.rules)
+        yield attached.where(~np.isin(attached.target, propped.target))
+        yield propped
 
     def _rooms(self, wholes: Indices) -> Iterator[Links]:
         found = find_rooms(self.scene.objects, self.boxed, self.classes, self.rules.room)
@@ -132,11 +157,6 @@ class _Finder:
             locate = locate_in_plans(plans, len(self.boxed))
         if len(fixed):
             yield find_connections(self.boxed, fixed, locate, self.rules.connects)
-
-    def _attached(self, stronger: StrongerRelations, *, needs_mount: bool) -> Links:
-        rule = self.rules.attached
-        found = find_attached(self.boxed, self.classes, stronger, rule, needs_mount=needs_mount)
-        return stronger.add_attached(found)
 
     def _adjacent(self, kinds: frozenset[str], takes_part: Mask, stronger: StrongerRelations) -> Iterator[Links]:
         sides = kinds & frozenset(VIEWPOINT_KINDS)

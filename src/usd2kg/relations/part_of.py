@@ -7,7 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from usd2kg.prim_paths import nearest_in
-from usd2kg.relations.array_records import first_of_each_group, rounded
+from usd2kg.relations.array_records import first_of_each_group, ratios, rounded
 from usd2kg.relations.boxed_objects import BoxedObjects, ClassMembership
 from usd2kg.relations.distances import box_gaps
 from usd2kg.relations.model import Links, margin_below, margin_score
@@ -115,29 +115,42 @@ def _object_at(path: str, number: dict[str, int]) -> int | None:
 def _fitted(scene: Scene, boxed: BoxedObjects, classes: ClassMembership, is_free: Mask, rule: PartOfRule) -> Links:
     is_front, is_handle = classes.are_in("fronts")[boxed.scene_index], classes.are_in("handles")[boxed.scene_index]
     is_body = (classes.are_in("bodies") | classes.are_in("frames"))[boxed.scene_index] & ~is_front & ~is_handle
+    is_drawer = classes.are_in("not_laid")[boxed.scene_index]
+    never = classes.are_in("not_wholes") | classes.are_in("not_neighbours")
+    may_hold_drawers = ~(never[boxed.scene_index] | is_front | is_handle)
     parts = np.flatnonzero((is_front | is_handle) & is_free[boxed.scene_index])
-    wholes = np.flatnonzero(is_body | is_front)
     above = [obj.prim_path.rpartition("/")[0] for obj in boxed.objects]
     group = {path: index for index, path in enumerate(dict.fromkeys(above))}
     family = np.array([group[path] for path in above], np.int64)
-    lower, upper = boxed.lower[parts, :2] - rule.max_gap, boxed.upper[parts, :2] + rule.max_gap
+    may_hold_drawers &= np.isin(family, family[parts[is_drawer[parts]]])
+    wholes = np.flatnonzero(is_body | is_front | may_hold_drawers)
+    lower, upper = boxed.lower[parts] - rule.max_gap, boxed.upper[parts] + rule.max_gap
     found = [(np.zeros(0, np.int64), np.zeros(0, np.int64))]
-    for i, j in overlapping_pairs(lower, upper, (boxed.lower[wholes, :2], boxed.upper[wholes, :2])):
+    for i, j in overlapping_pairs(lower, upper, (boxed.lower[wholes], boxed.upper[wholes])):
         part, whole = parts[i], wholes[j]
-        is_good = (part != whole) & (family[part] == family[whole]) & (is_handle[part] | is_body[whole])
+        is_in = is_drawer[part] & may_hold_drawers[whole] & (_share_within(boxed, part, whole) >= rule.min_slid_in)
+        is_good = (part != whole) & (family[part] == family[whole])
+        is_good &= is_body[whole] | (is_handle[part] & is_front[whole]) | is_in
         is_good &= boxed.volume[part] < boxed.volume[whole]
         part, whole = part[is_good], whole[is_good]
         is_met = (box_gaps(boxed, part, whole) <= rule.max_gap).all(axis=1)
         found.append((part[is_met], whole[is_met]))
     part, whole = (np.concatenate(column) for column in zip(*found, strict=True))
-    return _best_fit(boxed, part, whole, is_front, rule)
+    return _best_fit(boxed, part, whole, is_front, is_body, rule)
 
 
-def _best_fit(boxed: BoxedObjects, part: Indices, whole: Indices, is_front: Mask, rule: PartOfRule) -> Links:
-    """Return the best-fitting whole of each part; fronts take precedence for handles."""
+def _share_within(boxed: BoxedObjects, part: Indices, whole: Indices) -> Array:
+    shared = np.clip(-box_gaps(boxed, part, whole), 0, None).prod(axis=1)
+    return ratios(shared, boxed.volume[part])
+
+
+def _best_fit(
+    boxed: BoxedObjects, part: Indices, whole: Indices, is_front: Mask, is_body: Mask, rule: PartOfRule
+) -> Links:
+    """Return the best-fitting whole of each part; fronts take precedence for handles, bodies by class for drawers."""
     gaps = box_gaps(boxed, part, whole)
     met = np.clip((rule.max_gap - gaps) / (boxed.size[part] + rule.max_gap), 0, 1).prod(axis=1)
-    best = first_of_each_group(part, (boxed.rank[whole], -rounded(met), ~is_front[whole]))
+    best = first_of_each_group(part, (boxed.rank[whole], -rounded(met), ~is_body[whole], ~is_front[whole]))
     gap = np.clip(gaps[best].max(axis=1, initial=0), 0, None)
     links = Links(
         "part-of",

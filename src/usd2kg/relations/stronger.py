@@ -23,6 +23,8 @@ class StrongerRelations:
         self._count = len(boxed)
         self.is_loose = np.ones(len(boxed), np.bool_)
         """Whether each object may rest on another; parts that move on a joint may not."""
+        self.container = containment.container
+        """Index of the container of each object; -1 for none."""
         self.frame = containment.container.copy()
         """The whole of each object, else its container; -1 for neither."""
         self.supporter = np.full(len(boxed), -1)
@@ -51,10 +53,15 @@ class StrongerRelations:
         """Record `attached-to` links instead of the support of their targets, and return the `on` links left."""
         is_moved = np.zeros(self._count, np.bool_)
         is_moved[links.target] = True
+        left = self.withdraw_support(support, is_moved)
+        self.add_attached(links)
+        return left
+
+    def withdraw_support(self, support: list[Links], is_moved: Mask) -> list[Links]:
+        """Forget the support of the objects of a mask, and return the `on` links left."""
         moved = [self._key(found.target, found.anchor)[is_moved[found.target]] for found in support]
         self._keys = [keys[~np.isin(keys, np.concatenate(moved))] for keys in self._keys]
         self.supporter[is_moved] = -1
-        self.add_attached(links)
         return [found.where(~is_moved[found.target]) for found in support]
 
     def add_attached(self, links: Links) -> Links:
@@ -67,6 +74,11 @@ class StrongerRelations:
     def is_free(self) -> Mask:
         """Whether each object is on, in, part of and attached to nothing."""
         return np.asarray((self.supporter < 0) & (self.frame < 0) & ~self.is_attached)
+
+    @property
+    def may_hover(self) -> Mask:
+        """Whether each object is on, part of and attached to nothing, though it may be in something."""
+        return np.asarray((self.supporter < 0) & (self.frame == self.container) & ~self.is_attached)
 
     @property
     def holder(self) -> Indices:

@@ -23,7 +23,7 @@ from usd2kg.relations.thresholds import OnRule, RelationRules
 from usd2kg.scene import Box
 from usd2kg.shapes import overlapping_pairs
 
-__all__ = ["Support", "find_hovering", "find_support"]
+__all__ = ["Support", "find_hovering", "find_propped", "find_support"]
 
 Array = NDArray[np.float64]
 Indices = NDArray[np.int64]
@@ -31,6 +31,8 @@ Mask = NDArray[np.bool_]
 
 _ROUNDING = 1e-5
 """Metres: heights that differ by less are equal."""
+_PIERCED = 2e-3
+"""Metres by which an object may reach through all of what supports it."""
 
 
 class _Contacts(NamedTuple):
@@ -85,6 +87,8 @@ class Support(NamedTuple):
     """`on` with one anchor, and with several that support the target jointly."""
     near: _Contacts
     """All surfaces near the feet of an object, closer than what it may hover over."""
+    at_floor: Mask
+    """Whether each object rests on a surface of its container."""
 
 
 def find_support(
@@ -107,14 +111,19 @@ def find_support(
     tolerance = np.clip(rules.on.gap_share * boxed.size[:, 2], rules.on.min_gap, rules.on.max_gap)
     is_ground, hangs = (classes.are_in(name)[boxed.scene_index] for name in ("grounds", "hanging"))
     limits = _Limits(tolerance, is_ground, hangs, rules)
-    near = _find_contacts(boxed, np.flatnonzero(may_rest), can_support, container, limits)
+    around = _find_contacts(boxed, np.flatnonzero(may_rest), can_support, limits)
+    near = select_rows(around, container[around.anchor] == container[around.target])
+    rests = (around.anchor == container[around.target]) & (around.ratio > rules.on.min_overlap_ratio)
+    rests &= np.abs(around.gap) <= around.allowed
+    at_floor = np.isin(np.arange(len(boxed)), around.target[rests])
     contacts = select_rows(near, np.abs(near.gap) <= near.allowed)
-    single = _on_single(boxed, contacts, rules.on)
-    supports = ~classes.are_in("not_bearing")[boxed.scene_index]
-    is_left = np.ones(len(boxed), np.bool_)
-    is_left[single.target] = False
-    several = _on_several(boxed, select_rows(contacts, is_left[contacts.target] & supports[contacts.anchor]), rules)
-    return Support([single, several], near)
+    broad = contacts.ratio > rules.on.min_overlap_ratio
+    fits = broad & (boxed.area[contacts.target] < rules.on.max_area_ratio * boxed.area[contacts.anchor])
+    bears = ~classes.are_in("not_bearing")[boxed.scene_index][contacts.anchor]
+    is_left = ~np.isin(contacts.target, contacts.target[fits])
+    several = _on_several(boxed, select_rows(contacts, is_left & bears), rules)
+    fits |= broad & bears & _are_balanced(boxed, contacts) & ~np.isin(contacts.target, several.target)
+    return Support([_on_single(boxed, select_rows(contacts, fits), rules.on), several], near, at_floor)
 
 
 def find_hovering(boxed: BoxedObjects, near: _Contacts, is_left: Mask, rules: RelationRules) -> Links:
@@ -129,9 +138,25 @@ def find_hovering(boxed: BoxedObjects, near: _Contacts, is_left: Mask, rules: Re
     return _links(rule.rule, best, margin_score(margin_below(best.gap, rule.max_gap), over))
 
 
-def _find_contacts(
-    boxed: BoxedObjects, targets: Indices, can_support: Mask, container: Indices, limits: _Limits
-) -> _Contacts:
+def find_propped(boxed: BoxedObjects, near: _Contacts, attached: Links, rules: RelationRules) -> Links:
+    """Return the `on` links of objects that touch something which is also below their centre and part of their feet.
+
+    Args:
+        boxed: the objects.
+        near: the surfaces near the feet of objects.
+        attached: `attached-to` links; each link found replaces one of these.
+        rules: the thresholds.
+    """
+    pairs = attached.target * len(boxed) + attached.anchor
+    is_above = boxed.lower[near.anchor, 2] >= boxed.middle[near.target, 2]
+    is_good = np.isin(near.target * len(boxed) + near.anchor, pairs) & ~is_above & _are_balanced(boxed, near)
+    is_good &= (near.gap <= rules.hovering.max_gap) & (near.gap >= -near.allowed)
+    near = select_rows(near, is_good)
+    best = select_rows(near, first_of_each_group(near.target, (boxed.rank[near.anchor], -rounded(near.ratio))))
+    return _links(rules.hovering.rule, best, margin_score(margin_below(best.gap, rules.hovering.max_gap), best.ratio))
+
+
+def _find_contacts(boxed: BoxedObjects, targets: Indices, can_support: Mask, limits: _Limits) -> _Contacts:
     tops = _box_tops(boxed, can_support & ~boxed.has_surface, limits.rules)
     surfaces = _on_surfaces(boxed, targets, np.flatnonzero(can_support & boxed.has_surface), limits)
     found = concatenate_rows([*_on_boxes(boxed, targets, tops, limits), *surfaces])
@@ -141,7 +166,6 @@ def _find_contacts(
         (found.anchor != found.target)
         # The underside of a supporter is below the target's bottom; that of an object beside it is not.
         & (found.lower[:, 2] < boxed.lower[found.target, 2] - _ROUNDING)
-        & (container[found.anchor] == container[found.target])
         & ~(limits.is_ground[found.anchor] & limits.hangs[found.target])
     )
     return select_rows(found, is_good)
@@ -279,14 +303,19 @@ def _feet_over(boxed: BoxedObjects, targets: Indices, anchors: Indices, limits: 
 
 
 def _on_single(boxed: BoxedObjects, contacts: _Contacts, rule: OnRule) -> Links:
-    fits = boxed.area[contacts.target] < rule.max_area_ratio * boxed.area[contacts.anchor]
-    best = _best(boxed, select_rows(contacts, (contacts.ratio > rule.min_overlap_ratio) & fits))
+    best = _best(boxed, contacts)
     is_round = is_on_cycle(_pointers(boxed, best), best.target)
     # If two sheets at the same height support each other, the larger one is the supporter.
     best = select_rows(best, ~is_round | (boxed.area[best.target] < boxed.area[best.anchor]))
     best = select_rows(best, ~is_on_cycle(_pointers(boxed, best), best.target))
     over = margin_above(best.ratio, rule.min_overlap_ratio)
     return _links(rule.rule, best, margin_score(margin_below(best.gap, best.allowed), over))
+
+
+def _are_balanced(boxed: BoxedObjects, contacts: _Contacts) -> Mask:
+    """Return for each pair whether the supporter is below the centre of the target, as the stand of a basin is."""
+    middle = boxed.middle[contacts.target, :2]
+    return np.asarray(((contacts.lower[:, :2] <= middle) & (middle <= contacts.upper[:, :2])).all(axis=1))
 
 
 def _pointers(boxed: BoxedObjects, contacts: _Contacts) -> Indices:
@@ -296,9 +325,10 @@ def _pointers(boxed: BoxedObjects, contacts: _Contacts) -> Indices:
 
 
 def _best(boxed: BoxedObjects, contacts: _Contacts) -> _Contacts:
-    """Return each target's contact with the surface whose underside is highest."""
+    """Return each target's contact with the surface whose underside is highest, of those that it does not pierce."""
     owner, lowest = contacts.anchor, contacts.lower[:, 2]
-    keys = (boxed.rank[owner], -rounded(contacts.ratio), rounded(np.abs(contacts.gap)), -rounded(lowest))
+    is_pierced = boxed.lower[owner, 2] > boxed.lower[contacts.target, 2] + _PIERCED
+    keys = (boxed.rank[owner], -rounded(contacts.ratio), rounded(np.abs(contacts.gap)), -rounded(lowest), is_pierced)
     return select_rows(contacts, first_of_each_group(contacts.target, keys))
 
 

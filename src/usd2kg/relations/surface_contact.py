@@ -120,6 +120,22 @@ def _medians(values: Array, groups: Indices, chosen: Mask, count: int) -> Array:
     return found
 
 
+def _meet_rectangle(triangles: Array, lower: Array, upper: Array) -> Mask:
+    """Return for each triangle (n, 3, 2) whether none of its sides separates it from a rectangle.
+
+    The boxes of large oblique triangles, such as those of a turned tablecloth, cover much beside them.
+    """
+    meets = np.ones(len(triangles), np.bool_)
+    middle, half = (lower + upper) / 2, (upper - lower) / 2
+    for corner in range(3):
+        side = triangles[:, (corner + 1) % 3] - triangles[:, corner]
+        normal = np.stack([-side[:, 1], side[:, 0]], axis=1)
+        along = np.einsum("ijk,ik->ij", triangles - middle, normal)
+        reach = np.abs(normal) @ half
+        meets &= (along.min(axis=1) <= reach) & (along.max(axis=1) >= -reach)
+    return meets
+
+
 def _from_rim(standing: Standing, pair: int) -> tuple[float, ...] | None:
     """Return the contact of the highest faces of a surface with the underside of an object; None if there is none."""
     surface, own = standing.surfaces[pair], standing.own_surfaces[pair]
@@ -129,6 +145,7 @@ def _from_rim(standing: Standing, pair: int) -> tuple[float, ...] | None:
     low, high = np.maximum(surface.lower, lower)[:, :_UP], np.minimum(surface.upper, upper)[:, :_UP]
     top = surface.upper[:, _UP]
     rim = np.flatnonzero((np.abs(top - bottom) <= tolerance) & (low <= high).all(axis=1))
+    rim = rim[_meet_rectangle(surface.corners[rim, :, :_UP], lower[:_UP], upper[:_UP])]
     if own is not None and len(rim):
         middle = np.column_stack([(low[rim] + high[rim]) / 2, top[rim]])
         rim = rim[underside_at([middle], [own]) - top[rim] <= tolerance]

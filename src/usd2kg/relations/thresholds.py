@@ -109,6 +109,9 @@ class AttachedRule(NamedTuple):
     rule: str
     max_gap: float
     max_contact: float
+    max_touch: float
+    min_interlock: float
+    min_hold: float
     max_hanging_gap: float
     mount_preference: float
     min_bearing_ratio: float
@@ -236,6 +239,7 @@ class PartOfRule(NamedTuple):
     tree_rule: str
     fitted_rule: str
     max_gap: float
+    min_slid_in: float
 
 
 class ClassLists(NamedTuple):
