@@ -94,7 +94,10 @@ class TestRank:
         assert similar().rank(NamePhrase(()), (), None, []) == ()
 
     def test_one_term_alone_is_found(self):
-        assert similar(TERMS[:1]).rank(NamePhrase(("oxygen", "wall", "outlet")), (), None, [])[0].class_iri == LAB + "Outlet"
+        assert (
+            similar(TERMS[:1]).rank(NamePhrase(("oxygen", "wall", "outlet")), (), None, [])[0].class_iri
+            == LAB + "Outlet"
+        )
 
     @given(st.lists(st.text("abcdeé '<", min_size=1, max_size=6), max_size=5), st.floats(0, 1))
     def test_scores_are_shares_in_descending_order(self, words: list[str], score: float):
