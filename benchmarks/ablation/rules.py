@@ -79,7 +79,8 @@ RULES = (
     Rule("matching: subclasses named after a place", f"{TERMS}:TermMatcher._match_in_place", constant(())),
     Rule("matching: compounds with the parent's words", f"{TERMS}:TermMatcher.whole_words", constant(())),
     Rule("matching: name classifier", f"{TERMS}:TermMatcher._mix_with_classifier", argument(2)),
-    Rule("matching: short names of the home vocabulary", f"{TERMS}:short_home_names", constant(frozenset())),
+    Rule("matching: short names of the home vocabulary", f"{TERMS}:_is_short_home_name", constant(False)),
+    Rule("ranking: kinds of a noun in unprepared ontologies", "matching.kind_ranking:KindRanker.rank", argument(4)),
     Rule("head noun: modifier behind the head", f"{PHRASES}:PhraseMatcher._inverted_compounds", constant(())),
     Rule(
         "head noun: no competition with its own inversion", f"{PHRASES}:PhraseMatcher._is_inversion_of", constant(False)

@@ -78,7 +78,7 @@ def test_errors_are_one_line_and_the_graph_is_unchanged(kitchen: Path):
     before = kitchen.read_bytes()
 
     async def conversation(client: Client) -> None:
-        assert "'unicorn' is not a word" in await call(client, "look_up", thing="unicorn")
+        assert "'flurbl' is not a word" in await call(client, "look_up", thing="flurbl")
         assert "is not understood" in await call(client, "ask", question="sing me a song")
         assert "question 'nope' is unknown" in await call(client, "ready_question", id="nope")
         assert "begins with DELETE" in await call(client, "sparql", query="DELETE WHERE { ?s ?p ?o }")

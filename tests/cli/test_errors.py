@@ -168,7 +168,7 @@ def test_rejects_an_unreadable_graph(run: Run, tmp_path: Path, name: str, data: 
 @pytest.mark.parametrize(
     ("arguments", "message"),
     [
-        (["on", "unicorn"], "'unicorn' is not a word"),
+        (["on", "flurbl"], "'flurbl' is not a word"),
         (
             ["all", "of", "unicorns"],
             "no class or concept is named 'unicorns'; expected a noun that is a concept of an object, or one of the "

@@ -153,7 +153,7 @@ class TestCommand:
         [
             (["table", "-o", "x.gif"], "expected a file name ending in .svg or .png"),
             (["dinner plate", "-o", "x.svg"], "matches 4 objects; expected a prim path"),
-            (["unicorn", "-o", "x.svg"], "'unicorn' is not a word"),
+            (["flurbl", "-o", "x.svg"], "'flurbl' is not a word"),
         ],
     )
     def test_rejects_what_cannot_be_drawn(self, graph: Path, tmp_path: Path, arguments: list[str], message: str):

@@ -144,6 +144,19 @@ class TestGrounder:
     def test_a_foreign_ontology_is_ranked_by_kinds(self):
         assert self.predict("muffin_tin_6", BAKERY) == "Mould"
 
+    def test_an_ontology_of_another_domain_is_not_ranked(self):
+        # Where most things are only items, a similar label is chance.
+        tbox = make_tbox(
+            make_class("Item", label="item"), make_class("Mould", "Item", label="mould for doughs, of any baking form")
+        )
+        others = [make_object(f"/World/{name}") for name in ("car", "guitar", "dog", "tractor", "anchor", "tent")]
+        tin = make_object("/World/muffin_tin")
+        alone, among_others = (
+            ground(make_scene(*objects), tbox, LexicalGrounder()).by_path["/World/muffin_tin"].class_iri
+            for objects in ([tin], [tin, *others])
+        )
+        assert (alone, among_others) == (LAB + "Mould", LAB + "Item")
+
     def test_categories_are_found_from_their_members(self):
         taxonomy = load_taxonomy()
         stapler = find_synset("stapler", taxonomy)

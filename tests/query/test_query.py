@@ -182,7 +182,7 @@ class TestFinding:
         [
             ("helicopter", "there is no helicopter; expected a label, a class, a noun or a prim path"),
             ("bwl", "'bwl' is not understood; did you mean bowl?"),
-            ("unicorn", "'unicorn' is not a word that this graph or the lexicon knows"),
+            ("flurbl", "'flurbl' is not a word that this graph or the lexicon knows"),
             ("?", "'?' names no thing"),
             ("the", "'the' names no thing"),
             ("", "'' names no thing"),

@@ -39,7 +39,7 @@ def read_run(path: Path) -> StoredRun:
             ontology_hash=data["ontology_hash"],
             description=f"{_grounder(data)}, {settings['regime']} names, evidence {settings['evidence']}",
             scores=tuple(_score(item) for item in data["scores"]),
-            missed=frozenset(data["selection"]["missed"]),
+            missed=frozenset(data.get("selection", {"missed": ()})["missed"]),
         )
     except (OSError, ValueError, KeyError, TypeError, RecursionError) as error:
         raise EvaluationError(

@@ -15,7 +15,7 @@ from usd2kg.grounding.lexical.reading.english_words import SHORTEST_WORD, is_eng
 from usd2kg.grounding.lexical.reading.evidence_texts import texts_of
 from usd2kg.grounding.lexical.reading.noun_phrase import NameReader
 from usd2kg.grounding.lexical.reading.shortening import may_be_short
-from usd2kg.grounding.lexical.settings import ABBREVIATED_NAME, EVIDENCE
+from usd2kg.grounding.lexical.settings import ABBREVIATED_NAME, EVIDENCE, KIND_RANKING
 from usd2kg.languages import translate
 from usd2kg.ontology import ClassIRI
 from usd2kg.words import is_content_word, split_identifier
@@ -57,7 +57,8 @@ class NameEvidence:
         self._matcher = matcher
         self._ranker = ranker
         self.match = lru_cache(maxsize=8192)(self._match)
-        """(text, names above, extents in metres or None) → matches of the text, best first."""
+        """(text, names above, extents in metres or None, whether the ontology is made for the stage) → matches of the
+        text, best first."""
 
     def score_words(self, view: ObjectView) -> list[ScoredClass]:
         """Return the classes that words support, best first; reading stops at the first clear source."""
@@ -70,13 +71,15 @@ class NameEvidence:
 
     def score_sources(self, view: ObjectView) -> Iterator[list[ScoredClass]]:
         """Yield the classes that each source of words supports, the most reliable source first."""
+        is_made_for_it = self._is_made_for_stage(view)
         for group, text in texts_of(view):
             if group in {"hierarchy", "parts"} and self._reader.names_known_noun(view.name):
                 # The name is understood and no class fits, so groups and parts could only add a wrong class: a tulip
                 # has a stem, and so has a pipe.
                 break
             is_name = group == "name"
-            matches = self.match(text, view.parents if is_name else (), view.own_size if is_name else None)
+            above, size = (view.parents, view.own_size) if is_name else ((), None)
+            matches = self.match(text, above, size, is_made_for_it)
             weight = _WEIGHTS[group]
             yield [
                 ScoredClass(
@@ -101,7 +104,7 @@ class NameEvidence:
             view: the object.
             scored: the classes by the known words alone; returned unchanged if no expansion is likely.
         """
-        matches = self.match(view.name, view.parents, view.own_size)
+        matches = self.match(view.name, view.parents, view.own_size, self._is_made_for_stage(view))
         words = matches[0].phrase.words[-ABBREVIATED_NAME.max_tokens :] if matches else ()
         spelled = {word for word in words if self._is_word(word) or not may_be_short(word)}
         if spelled.issuperset(words):
@@ -165,10 +168,27 @@ class NameEvidence:
     def _is_word(self, word: str) -> bool:
         return self._reader.kinds.is_known(word) or is_english_word(word)
 
-    def _match(self, text: str, parents: tuple[str, ...], size: Size | None = None) -> tuple[Match, ...]:
+    def _is_made_for_stage(self, view: ObjectView) -> bool:
+        """Return whether the ontology has specific classes for most objects of the stage; True without a stage."""
+        if self._ranker is None or self._ranker.is_for_any_stage or view.is_masked or view.neighbourhood is None:
+            return True
+        return view.neighbourhood.of_stage(self._has_specific_classes)
+
+    def _has_specific_classes(self, names: Sequence[str]) -> bool:
+        """Return whether the head nouns of most names lead to another class than the default class."""
+        some = sorted(set(names))[:: len(set(names)) // KIND_RANKING.stage_names + 1]
+        found = [matches[0].class_iri for name in some if (matches := self.match(name, ()))]
+        general = sum(iri == self._lexicon.default_class for iri in found)
+        return general <= KIND_RANKING.max_general_share * max(len(found), KIND_RANKING.min_stage_names)
+
+    def _match(
+        self, text: str, parents: tuple[str, ...], size: Size | None = None, is_made_for_it: bool = False
+    ) -> tuple[Match, ...]:
         phrase = self._reader.read(text, parents)
         matches = self._matcher.match(phrase, parents, size)
-        return tuple(matches) if self._ranker is None else self._ranker.rank(phrase, parents, size, matches)
+        if self._ranker is None or not (is_made_for_it or self._ranker.is_for_any_stage):
+            return tuple(matches)
+        return self._ranker.rank(phrase, parents, size, matches)
 
 
 def _explain_match(match: Match, group: str) -> str:

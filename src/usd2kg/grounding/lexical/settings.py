@@ -214,6 +214,9 @@ class KindRankingSettings(NamedTuple):
     least_idf: float
     min_explained: float
     max_classes: int
+    max_general_share: float
+    min_stage_names: int
+    stage_names: int
 
 
 class HeadNounSettings(NamedTuple):

@@ -78,6 +78,11 @@ class HeadMatcher(Protocol):
 class ClassRanker(Protocol):
     """Ranks the classes of a whole name."""
 
+    @property
+    def is_for_any_stage(self) -> bool:
+        """Whether it also ranks names of a stage that the ontology is not made for."""
+        ...
+
     def rank(
         self, phrase: NamePhrase, parents: tuple[str, ...], size: Size | None, matches: Sequence[Match]
     ) -> tuple[Match, ...]:

@@ -68,6 +68,9 @@ class KindFeatures(NamedTuple):
 class KindRanker:
     """The classes of one TBox, ranked by the kinds of what a name means."""
 
+    # Where most things have a general class only, a similar label is chance.
+    is_for_any_stage = False
+
     def __init__(
         self,
         tbox: TBox,

@@ -27,6 +27,8 @@ __all__ = ["SimilarMembers"]
 class SimilarMembers:
     """The terms of one TBox, searched by similarity."""
 
+    is_for_any_stage = True
+
     def __init__(self, terms: Iterable[Term], taxonomy: Taxonomy, tbox: TBox) -> None:
         self._terms = tuple(terms)
         self._taxonomy = taxonomy

@@ -259,7 +259,7 @@ class TermMatcher:
 
     def _match_hypernyms(self, key: str, is_compound: bool) -> Iterator[Match]:
         """Yield for each sense of a noun the class of its nearest aligned hypernym."""
-        if len(key) < READING.min_noun_letters and key not in home_words().short_names:
+        if len(key) < READING.min_noun_letters and not _is_short_home_name(key):
             return
         usual = usual_sense(key, self._taxonomy)
         nearest = None if usual is None else self._nearest_class(usual.synset)
@@ -366,3 +366,7 @@ def _best_by_class(matches: tuple[Match, ...]) -> dict[ClassIRI, Match]:
 
 def _sorted(matches: list[Match]) -> tuple[Match, ...]:
     return tuple(sorted(matches, key=lambda match: (-match.score, match.class_iri)))
+
+
+def _is_short_home_name(key: str) -> bool:
+    return key in home_words().short_names
