@@ -147,9 +147,12 @@ class TestGrounder:
     def test_an_ontology_of_another_domain_is_not_ranked(self):
         # Where most things are only items, a similar label is chance.
         tbox = make_tbox(
-            make_class("Item", label="item"), make_class("Mould", "Item", label="mould for doughs, of any baking form")
+            make_class("Item", label="item"),
+            make_class("Mould", "Item", label="baking form", comment="Tins in which dough is baked: bread and cake."),
         )
-        others = [make_object(f"/World/{name}") for name in ("car", "guitar", "dog", "tractor", "anchor", "tent")]
+        others = [
+            make_object(f"/World/{name}") for name in ("car", "guitar", "dog", "tractor", "anchor", "tent", "sofa")
+        ]
         tin = make_object("/World/muffin_tin")
         alone, among_others = (
             ground(make_scene(*objects), tbox, LexicalGrounder()).by_path["/World/muffin_tin"].class_iri
