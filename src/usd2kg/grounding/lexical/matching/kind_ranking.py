@@ -201,7 +201,7 @@ class KindRanker:
             for sense, share in zip(senses, KIND_RANKING.sense_weights, strict=False):
                 for up, steps in self._taxonomy.walk_up(sense.synset):
                     weight = tail * share * KIND_RANKING.step_factor**steps
-                    for lemma in {self._taxonomy.name(up), self._taxonomy.label(up)}:
+                    for lemma in (self._taxonomy.name(up), self._taxonomy.label(up)):
                         add(lemma, weight)
                     for kind in self._kinds(up):
                         add(kind, weight * KIND_RANKING.category_factor)
