@@ -103,6 +103,7 @@ class KindRanker:
             for column in zip(*texts, strict=True)
         )
         # Names share words and kinds.
+        self._kind_words = lru_cache(maxsize=16384)(self._split_kind)
         self._kinds_of = lru_cache(maxsize=4096)(self._find_kinds_of)
         self._label_cosines = lru_cache(maxsize=4096)(self._compute_label_cosines)
         self._name_words = lru_cache(maxsize=4096)(self._read_name_words)
@@ -191,7 +192,7 @@ class KindRanker:
         kinds: dict[tuple[str, ...], float] = {}
 
         def add(kind: str, weight: float) -> None:
-            key = tuple(map(self._taxonomy.singular, re.split(r"[\s-]+", kind)))
+            key = self._kind_words(kind)
             kinds[key] = max(kinds.get(key, 0.0), weight)
 
         for start in range(len(words)):
@@ -206,6 +207,9 @@ class KindRanker:
                     for kind in self._kinds(up):
                         add(kind, weight * KIND_RANKING.category_factor)
         return kinds
+
+    def _split_kind(self, kind: str) -> tuple[str, ...]:
+        return tuple(map(self._taxonomy.singular, re.split(r"[\s-]+", kind)))
 
     def _compute_label_cosines(self, kind: tuple[str, ...]) -> tuple[NDArray[np.intp], Values]:
         """Return the classes whose labels share a word with a kind, and the cosines."""
