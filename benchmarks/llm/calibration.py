@@ -28,7 +28,7 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("models", nargs="+", metavar="MODEL")
     parser.add_argument("--objects", type=int, default=7, help="evenly spaced labels of each scene")
-    parser.add_argument("--record", type=Path, default=Path("build/forms.jsonl"))
+    parser.add_argument("--record", type=Path, default=Path(__file__).with_name("forms.jsonl"))
     options = parser.parse_args()
     specs = {spec.name: spec for spec in read_accuracy_matrix().scenes}
     scenes = [load_scene(specs[name]) for name in SCENES]

@@ -85,7 +85,7 @@ def parse_options() -> argparse.Namespace:
     parser.add_argument("--forms", nargs="*", choices=FORMS, metavar="FORM", help=f"of: {'; '.join(FORMS)}")
     parser.add_argument("--scenes", nargs="*", default=SCENES, metavar="NAME", help="names in accuracy/matrix.toml")
     parser.add_argument("--objects", type=int, default=7, help="evenly spaced labels of each scene")
-    parser.add_argument("--record", type=Path, default=Path("build/forms.jsonl"))
+    parser.add_argument("--record", type=Path, default=Path(__file__).with_name("forms.jsonl"))
     return parser.parse_args()
 
 
