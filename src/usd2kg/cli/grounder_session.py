@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 from usd2kg.cli.carried_decisions import carry_over_decisions
 from usd2kg.cli.options.grounding import GroundingOptions
 from usd2kg.cli.options.review import CarryOverOptions
-from usd2kg.cli.output import Progress, emit, notify
+from usd2kg.cli.output import Progress, count_noun, emit, notify
 from usd2kg.errors import GroundingError, SceneError
 
 if TYPE_CHECKING:
@@ -59,7 +59,8 @@ class GrounderSession:
         if (queue := self.options.review.queue) is not None:
             waiting = find_uncertain(grounding, self.options.review.person)
             emit(format_queue(waiting, tbox), queue)
-            notify(f"{len(waiting)} objects to review in {queue}; fill in the column decision for --decisions")
+            waiting_objects = count_noun(len(waiting), "object")
+            notify(f"{waiting_objects} to review in {queue}; fill in the column decision for --decisions")
         self._write_alignment(tbox)
         self.check_completions()
 
