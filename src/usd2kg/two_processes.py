@@ -7,6 +7,7 @@ import sys
 import threading
 import warnings
 from collections.abc import Callable, Sequence
+from contextlib import ExitStack
 from typing import TypeVar
 
 __all__ = ["compute_in_halves"]
@@ -32,12 +33,11 @@ def compute_in_halves(
     middle = len(items) // 2
     child, output = _fork(lambda: compute(items[middle:]))
     try:
-        with os.fdopen(output, "rb") as pipe:
+        with os.fdopen(output, "rb") as pipe, ExitStack() as if_unfinished:
+            if_unfinished.callback(os.kill, child, signal.SIGKILL)
             first = compute(items[:middle])
             answer = pipe.read()
-    except BaseException:
-        os.kill(child, signal.SIGKILL)
-        raise
+            if_unfinished.pop_all()
     finally:
         _, status = os.waitpid(child, 0)
     # A child that failed or ran out of memory: the same error, if any, is raised here.
