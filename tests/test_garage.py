@@ -12,7 +12,7 @@ import usd2kg
 from benchmarks.relations.judged import SCENES, read_judged
 from benchmarks.scenes.garage import build as garage
 from benchmarks.scenes.garage.build import build, read_layout
-from benchmarks.scenes.garage.models import Library, ModelError, parse_obj
+from benchmarks.scenes.sweet_home import Library, ModelError, parse_obj
 from tests.judged_scenes import judged_stage
 
 CABINET = """

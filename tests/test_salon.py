@@ -6,7 +6,6 @@ from pxr import Usd, UsdGeom
 
 import usd2kg
 from benchmarks.relations.judged import KINDS, SCENES, read_judged
-from benchmarks.scenes.garage.models import ModelError
 from benchmarks.scenes.salon import build as salon
 from benchmarks.scenes.salon.contact import lift_onto, solid
 from benchmarks.scenes.salon.shapes import (
@@ -23,6 +22,7 @@ from benchmarks.scenes.salon.shapes import (
     vessel,
 )
 from benchmarks.scenes.salon.stage import Asset, Salon, write
+from benchmarks.scenes.sweet_home import ModelError
 from tests.judged_scenes import judged_stage
 
 SHAPES = {

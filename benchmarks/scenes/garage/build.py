@@ -7,10 +7,8 @@ The models may not be part of the repository. The layout is: `objects.csv` has t
 `parts.csv` the parts of models that are objects of their own, `boxes.csv` the floor, the ceiling and the walls.
 """
 
-import argparse
 import csv
 import re
-import sys
 from collections import defaultdict
 from collections.abc import Iterable, Sequence
 from functools import cache
@@ -21,16 +19,15 @@ import numpy as np
 from numpy.typing import NDArray
 from pxr import Gf, Kind, Sdf, Usd, UsdGeom
 
-from benchmarks.scenes.garage.models import Library, Model, ModelError
+from benchmarks.scenes.sweet_home import DEFAULT_MODELS, Library, Model, ModelError, run_build
 
-__all__ = ["COMMAND", "DEFAULT_MODELS", "STAGE", "Layout", "build", "read_layout"]
+__all__ = ["COMMAND", "STAGE", "Layout", "build", "read_layout"]
 
 HERE = Path(__file__).parent
 STAGE = HERE / "garage.usdc"
 """Where the stage is written by default; git ignores it."""
 COMMAND = "apt-get install sweethome3d-furniture && python -m benchmarks.scenes.garage.build"
 """How to write it."""
-DEFAULT_MODELS = Path("/usr/share/sweethome3d/furniture")
 PROTOTYPES = Sdf.Path("/_models")
 MESH = "mesh"
 BOX_FACES = ((0, 1, 3, 2), (4, 6, 7, 5), (0, 4, 5, 1), (2, 3, 7, 6), (0, 2, 6, 4), (1, 5, 7, 3))
@@ -194,17 +191,7 @@ def _rows(path: Path) -> Iterable[dict[str, str]]:
 
 def main() -> None:
     """Write the stage and print the number of its objects."""
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("-o", "--out", type=Path, default=STAGE, help=f"default: {STAGE.name} beside this script")
-    parser.add_argument(
-        "--models", type=Path, default=DEFAULT_MODELS, help="folder of the .sh3f files; default: %(default)s"
-    )
-    asked = parser.parse_args()
-    try:
-        count = build(asked.out, asked.models)
-    except ModelError as error:
-        sys.exit(f"build.py: {error}")
-    print(f"{asked.out}: {count} objects")
+    run_build(__doc__ or "", STAGE, build)
 
 
 if __name__ == "__main__":

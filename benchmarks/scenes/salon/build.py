@@ -6,12 +6,8 @@ Usage: apt-get install sweethome3d-furniture
 The models may not be part of the repository.
 """
 
-import argparse
-import sys
 from pathlib import Path
 
-from benchmarks.scenes.garage.build import DEFAULT_MODELS
-from benchmarks.scenes.garage.models import ModelError
 from benchmarks.scenes.salon.back import build_back_room
 from benchmarks.scenes.salon.front import build_front
 from benchmarks.scenes.salon.kitchenette import build_kitchenette
@@ -20,6 +16,7 @@ from benchmarks.scenes.salon.shop import build_shop
 from benchmarks.scenes.salon.stage import Salon, write
 from benchmarks.scenes.salon.stations import build_stations
 from benchmarks.scenes.salon.toilet import build_toilet
+from benchmarks.scenes.sweet_home import DEFAULT_MODELS, run_build
 
 __all__ = ["COMMAND", "STAGE", "build", "furnish"]
 
@@ -54,17 +51,7 @@ def build(out: Path, models: Path = DEFAULT_MODELS) -> int:
 
 def main() -> None:
     """Write the stage and print the number of its objects."""
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("-o", "--out", type=Path, default=STAGE, help=f"default: {STAGE.name} beside this script")
-    parser.add_argument(
-        "--models", type=Path, default=DEFAULT_MODELS, help="folder of the .sh3f files; default: %(default)s"
-    )
-    asked = parser.parse_args()
-    try:
-        count = build(asked.out, asked.models)
-    except ModelError as error:
-        sys.exit(f"build.py: {error}")
-    print(f"{asked.out}: {count} objects")
+    run_build(__doc__ or "", STAGE, build)
 
 
 if __name__ == "__main__":

@@ -10,9 +10,9 @@ import numpy as np
 from numpy.typing import NDArray
 from pxr import Gf, Kind, Sdf, Usd, UsdGeom
 
-from benchmarks.scenes.garage.models import Library
 from benchmarks.scenes.salon.contact import Solid, lift_onto, solid
 from benchmarks.scenes.salon.shapes import Shape, turn
+from benchmarks.scenes.sweet_home import Library
 
 __all__ = ["Asset", "Placed", "Salon", "write"]
 

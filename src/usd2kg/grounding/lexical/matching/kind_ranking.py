@@ -111,14 +111,9 @@ class KindRanker:
     def rank(
         self, phrase: NamePhrase, parents: tuple[str, ...], size: Size | None, matches: Sequence[Match]
     ) -> tuple[Match, ...]:
-        """Return the classes of a name, best first; the best one gets the highest score of a match.
+        """Return the classes as `ClassRanker.rank` does; the best one gets the highest score of a match.
 
-        Args:
-            phrase: the name.
-            parents: the names of the prims above, outermost first.
-            size: extents of the object in metres, in any order.
-            matches: the classes by the head noun, best first; returned unchanged if there are none, or if a person
-                decided the best one.
+        The matches are returned unchanged if there are none, or if a person decided the best one.
         """
         if not matches or matches[0].is_listed:
             return tuple(matches)

@@ -45,15 +45,10 @@ class SimilarMembers:
     def rank(
         self, phrase: NamePhrase, parents: tuple[str, ...], size: Size | None, matches: Sequence[Match]
     ) -> tuple[Match, ...]:
-        """Return the matches of a name and the classes of similar terms, ranked by both, best first.
+        """Return the matches of a name and the classes of similar terms, ranked by both, as `ClassRanker.rank` does.
 
-        The best one gets the highest score of a match, or the score of a term times its cosine if that is higher.
-
-        Args:
-            phrase: the name.
-            parents: the names above, which do not matter.
-            size: the extents, which do not matter.
-            matches: the classes by the head noun.
+        The best one gets the highest score of a match, or the score of a term times its cosine if that is higher. The
+        names above and the size do not matter.
         """
         similar = self._find(phrase.words)
         own = {match.class_iri: match for match in matches}

@@ -1,6 +1,9 @@
 """Models of a library of Sweet Home 3D: a `.sh3f` file, which is a ZIP archive of OBJ files and their catalogue."""
 
+import argparse
 import re
+import sys
+from collections.abc import Callable
 from pathlib import Path
 from typing import NamedTuple
 from zipfile import ZipFile
@@ -8,8 +11,10 @@ from zipfile import ZipFile
 import numpy as np
 from numpy.typing import NDArray
 
-__all__ = ["Library", "Model", "ModelError", "parse_obj"]
+__all__ = ["DEFAULT_MODELS", "Library", "Model", "ModelError", "parse_obj", "run_build"]
 
+DEFAULT_MODELS = Path("/usr/share/sweethome3d/furniture")
+"""Folder of the `.sh3f` files of the Debian package sweethome3d-furniture."""
 CATALOGUE = "PluginFurnitureCatalog.properties"
 ENCODING = "latin-1"
 
@@ -108,3 +113,24 @@ def _merge_points(model: Model) -> Model:
 
 def _floats(text: str) -> NDArray[np.float64]:
     return np.array([float(number) for number in text.split()])
+
+
+def run_build(description: str, stage: Path, build: Callable[[Path, Path], int]) -> None:
+    """Run the command that builds a scene from such models.
+
+    Args:
+        description: what the command says of itself.
+        stage: where the stage is written by default.
+        build: writes a stage with the models of a folder and returns the number of its objects.
+    """
+    parser = argparse.ArgumentParser(description=description, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("-o", "--out", type=Path, default=stage, help=f"default: {stage.name} beside this script")
+    parser.add_argument(
+        "--models", type=Path, default=DEFAULT_MODELS, help="folder of the .sh3f files; default: %(default)s"
+    )
+    asked = parser.parse_args()
+    try:
+        count = build(asked.out, asked.models)
+    except ModelError as error:
+        sys.exit(f"build.py: {error}")
+    print(f"{asked.out}: {count} objects")
