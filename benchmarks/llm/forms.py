@@ -85,6 +85,7 @@ def parse_options() -> argparse.Namespace:
     parser.add_argument("--forms", nargs="*", choices=FORMS, metavar="FORM", help=f"of: {'; '.join(FORMS)}")
     parser.add_argument("--scenes", nargs="*", default=SCENES, metavar="NAME", help="names in accuracy/matrix.toml")
     parser.add_argument("--objects", type=int, default=7, help="evenly spaced labels of each scene")
+    parser.add_argument("--listed-objects", type=int, help="how many of these in forms with all classes; default: all")
     parser.add_argument("--record", type=Path, default=Path(__file__).with_name("forms.jsonl"))
     return parser.parse_args()
 
@@ -133,14 +134,15 @@ def ask_form(
         examples = examples_for(group[0], scenes, form.examples) if form.examples else []
         with open_llm_grounder(settings, examples=examples) as grounder:
             for scene in group:
-                yield ask(grounder, label, name, scene, options.objects)
+                paths = spaced(scene.paths, options.objects)
+                few = options.listed_objects if form.settings.shortlist is None else None
+                yield ask(grounder, label, name, scene, spaced(paths, few or len(paths)))
 
 
-def ask(grounder: LLMGrounder, model: str, form: str, scene: LabelledScene, count: int) -> Outcome:
-    """Return the answers about a scene. The time is that of the processor, for models in this process."""
+def ask(grounder: LLMGrounder, model: str, form: str, scene: LabelledScene, paths: Sequence[str]) -> Outcome:
+    """Return the answers about objects of a scene. The time is that of the processor, for models in this process."""
     grounder.restart_report()
     start = time.process_time()
-    paths = spaced(scene.paths, count)
     answers = ground(scene.scene, scene.tbox, grounder, paths=paths).by_path
     report = grounder.report
     usage = report.usage + report.cached_usage
