@@ -64,6 +64,9 @@ SCENES = {
     "warehouse": Sources(ROOT / "benchmarks/scenes/warehouse/warehouse.usda", (HERE / "judged/warehouse.csv",)),
     "garage": Sources(GARAGE, (HERE / "judged/garage.csv",), f"run {BUILD_GARAGE}"),
     "salon": Sources(SALON, (HERE / "judged/salon.csv",), f"run {BUILD_SALON}"),
+    "bicycle_shop": Sources(
+        ROOT / "benchmarks/scenes/bicycle_shop/bicycle_shop.usdc", (HERE / "judged/bicycle_shop.csv",)
+    ),
 }
 
 
