@@ -3,8 +3,12 @@
 import csv
 import gzip
 import io
+import zipfile
 from collections.abc import Iterable, Sequence
 from pathlib import Path
+from typing import Any
+
+import numpy as np
 
 ROOT = Path(__file__).parents[1]
 KNOWLEDGE = ROOT / "knowledge"
@@ -36,6 +40,22 @@ def csv_bytes(columns: Sequence[str], rows: Iterable[Sequence[object]]) -> bytes
 def gzip_bytes(content: bytes) -> bytes:
     """Return compressed bytes without a time stamp: the same input gives the same bytes."""
     return gzip.compress(content, compresslevel=9, mtime=0)
+
+
+def npz_bytes(**arrays: Any) -> bytes:
+    """Return a compressed file of arrays as `numpy.load` reads it, without time stamps."""
+    file = io.BytesIO()
+    with zipfile.ZipFile(file, "w", zipfile.ZIP_DEFLATED, compresslevel=9) as archive:
+        for name, array in arrays.items():
+            data = io.BytesIO()
+            np.lib.format.write_array(data, np.asanyarray(array))
+            archive.writestr(zipfile.ZipInfo(f"{name}.npy"), data.getvalue(), zipfile.ZIP_DEFLATED)
+    return file.getvalue()
+
+
+def encode_lines(lines: Iterable[str]) -> Any:
+    """Return lines as an array of UTF-8 bytes, for `npz_bytes`."""
+    return np.frombuffer("\n".join(lines).encode("utf-8"), dtype=np.uint8)
 
 
 def write_data_file(name: str, content: bytes) -> Path:

@@ -80,8 +80,8 @@ def read_names(labelled: Sequence[LabelledName], tbox: TBox) -> Iterator[Name]:
         matches = matcher.match(phrase, parents, one.obj.box.size)
         if not matches:
             continue
-        kinds = ranker.find_kinds(phrase, parents, one.obj.box.size)
-        features = np.stack(ranker.features(phrase, parents, kinds, matches), axis=1)
+        heads = matcher.head_shares(phrase, parents, one.obj.box.size)
+        features = np.stack(ranker.features(phrase, parents, heads, ranker.find_kinds(heads), matches), axis=1)
         is_right = np.array([iri == one.target for iri in ranker.classes])
         if is_right.any():
             yield Name(features, is_right, matches[0].class_iri == one.target)

@@ -6,11 +6,8 @@ Writes `src/usd2kg/data/name_classifier.npz`, the weights of a multinomial logit
 cross-validated accuracy. Takes five minutes.
 """
 
-import io
 import warnings
-import zipfile
 from collections import Counter
-from typing import Any
 
 import numpy as np
 from sklearn.exceptions import ConvergenceWarning
@@ -19,12 +16,10 @@ from sklearn.linear_model import LogisticRegression
 from sklearn.model_selection import cross_val_score
 from sklearn.pipeline import make_pipeline
 
-from tools.data_files import DATA
+from tools.data_files import encode_lines, npz_bytes, write_data_file
 from usd2kg.grounding.lexical.concepts.home_names import home_names
 from usd2kg.grounding.lexical.concepts.name_classifier import name_features
 from usd2kg.grounding.lexical.concepts.taxonomy import load_taxonomy
-
-OUTPUT = DATA / "name_classifier.npz"
 
 MIN_COUNT = 2
 """Features of fewer names are dropped: they do not generalise."""
@@ -75,17 +70,8 @@ def write_model(names: list[str], fitted: LogisticRegression) -> None:
         "intercepts": fitted.intercept_,
     }
     # numpy.savez stores the time, and equal fits must give equal bytes.
-    with zipfile.ZipFile(OUTPUT, "w", zipfile.ZIP_DEFLATED, compresslevel=9) as archive:
-        for name, array in arrays.items():
-            data = io.BytesIO()
-            np.lib.format.write_array(data, np.asanyarray(array))
-            archive.writestr(zipfile.ZipInfo(f"{name}.npy"), data.getvalue(), zipfile.ZIP_DEFLATED)
-    print(f"{OUTPUT.name}: {len(kept)} features, {OUTPUT.stat().st_size / 1e6:.2f} MB")
-
-
-def encode_lines(lines: list[str]) -> Any:
-    """Return lines as an array of UTF-8 bytes."""
-    return np.frombuffer("\n".join(lines).encode("utf-8"), dtype=np.uint8)
+    path = write_data_file("name_classifier.npz", npz_bytes(**arrays))
+    print(f"{path.name}: {len(kept)} features, {path.stat().st_size / 1e6:.2f} MB")
 
 
 if __name__ == "__main__":

@@ -181,8 +181,13 @@ class TestEdits:
         assert classes_of("adhesive_tape", SHOP, edits) == ["Item"]
 
     def test_a_deleted_row_of_a_complete_file_is_gone(self):
-        text = "".join(line for line in TestText.TEXT.splitlines(keepends=True) if "\tadhesive tape\t" not in line)
-        assert classes_of("adhesive_tape", SHOP, AlignmentFile(Path("x.tsv"), text)) == ["Item"]
+        taxonomy = load_taxonomy()
+        lines = TestText.TEXT.splitlines(keepends=True)
+        (row,) = [line for line in lines if "\tadhesive tape\t" in line]
+        synset = taxonomy.find_concept(row.split("\t")[0].replace("wn:", "http://wordnet-rdf.princeton.edu/id/"))
+        for kept in (lines, [line for line in lines if line != row]):
+            _, lexicon = AlignmentFile(Path("x.tsv"), "".join(kept)).apply(SHOP, taxonomy, home_names())
+            assert (synset in lexicon.category_members) == (row in kept)
 
     def test_an_edited_row_of_a_complete_file_decides(self):
         old, new = "semapv:LexicalMatching", "semapv:ManualMappingCuration"

@@ -48,7 +48,8 @@ def own_match(name: str, score: float = 0.5) -> Match:
 def features_of(name: str, *matches: Match, parents: tuple[str, ...] = ()) -> dict[str, dict[str, float]]:
     ranker, reader = make_ranker(kinds={"muffin tin": ("baking mould",)})
     phrase = reader.read(name, parents)
-    found = ranker.features(phrase, parents, ranker.find_kinds(phrase, parents, None), matches)
+    heads = ranker._matcher.head_shares(phrase, parents, None)
+    found = ranker.features(phrase, parents, heads, ranker.find_kinds(heads), matches)
     classes = [iri.removeprefix(LAB) for iri in ranker.classes]
     return {key: dict(zip(classes, values.tolist(), strict=True)) for key, values in found._asdict().items()}
 
@@ -57,16 +58,17 @@ def test_there_is_a_weight_for_each_feature():
     assert WEIGHTS.keys() == set(KindFeatures._fields)
 
 
-@pytest.mark.parametrize("name", ["log_score", "label", "label_words", "comment_words", "name_comment", "parent_label"])
+@pytest.mark.parametrize(
+    "name", ["log_score", "label_kinds", "comment_kinds", "comment_name", "similar_label_kinds", "similar_label_name"]
+)
 def test_what_speaks_for_a_class_has_a_positive_weight(name: str):
     assert WEIGHTS[name] > 0
 
 
-def test_a_category_with_the_words_of_a_label_has_the_cosine_1():
-    label = features_of("muffin_tin", own_match("Item"))["label"]
-    # The tin alone may be the head noun, too.
-    assert label["Mould"] == pytest.approx(KIND_RANKING.category_factor, rel=0.02)
-    assert label["Shelf"] == 0
+def test_the_words_of_a_category_count_for_a_label_that_has_them():
+    found = features_of("muffin_tin", own_match("Item"))
+    assert found["label_kinds"]["Mould"] > 0 == found["label_kinds"]["Shelf"]
+    assert found["similar_label_kinds"]["Mould"] > found["similar_label_kinds"]["Shelf"]
 
 
 def test_cosines_weigh_words_by_their_rarity():
@@ -79,9 +81,11 @@ def test_cosines_weigh_words_by_their_rarity():
     )
     ranker, _ = make_ranker(tbox)
     rare, frequent = (math.log(5 / (count + 0.5)) + KIND_RANKING.least_idf for count in (1, 2))
-    rows, cosines = ranker._label_cosines(("tray",))
-    assert [ranker.classes[row] for row in rows] == [LAB + "A1", LAB + "A2"]
-    assert cosines.tolist() == pytest.approx([frequent / math.hypot(rare, frequent), 1.0])
+    cosines = ranker._labels.cosines(ranker._unit_vector({"tray": 1.0}))
+    expected = {"Item": 0.0, "A1": frequent / math.hypot(rare, frequent), "A2": 1.0, "A3": 0.0}
+    assert dict(zip(ranker.classes, cosines, strict=True)) == pytest.approx(
+        {LAB + name: value for name, value in expected.items()}
+    )
 
 
 def test_each_name_of_a_class_counts():
@@ -89,22 +93,35 @@ def test_each_name_of_a_class_counts():
         make_class("Item", label="thing"), make_class("A1", "Item", label="chart holder", synonyms=["paper tray"])
     )
     ranker, _ = make_ranker(tbox)
-    rows, cosines = ranker._label_cosines(("paper", "tray"))
-    assert [ranker.classes[row] for row in rows] == [LAB + "A1"]
-    assert cosines.tolist() == pytest.approx([1.0])
+    words = ("paper", "tray")
+    own = ranker.classes.index(LAB + "A1")
+    assert ranker._labels.cosines(ranker._unit_vector(dict.fromkeys(words, 1.0)))[own] == pytest.approx(1.0)
+    assert ranker._near_labels.cosines(ranker._embed(words))[own] == pytest.approx(1.0, abs=1e-6)
+
+
+def test_a_label_is_similar_to_another_word_for_the_same_thing():
+    tbox = make_tbox(
+        make_class("Item", label="thing"),
+        make_class("A1", "Item", label="tapware"),
+        make_class("A2", "Item", label="tower"),
+    )
+    ranker, reader = make_ranker(tbox)
+    phrase = reader.read("faucet", ())
+    heads = ranker._matcher.head_shares(phrase, (), None)
+    found = ranker.features(phrase, (), heads, ranker.find_kinds(heads), [own_match("Item")])
+    faucet, tower = ranker.classes.index(LAB + "A1"), ranker.classes.index(LAB + "A2")
+    assert found.similar_label_name[faucet] > 0.5 > found.similar_label_name[tower]
 
 
 def test_the_words_of_a_comment_and_of_the_names_above_count():
     found = features_of("bread_loaf", own_match("Item"), parents=("goods_shelf",))
-    assert found["name_comment"]["Goods"] > found["name_comment"]["Shelf"] == 0
-    assert found["parent_label"]["Shelf"] > found["parent_label"]["Mould"] == 0
+    assert found["comment_name"]["Goods"] > found["comment_name"]["Shelf"] == 0
+    assert found["label_parents"]["Shelf"] > found["label_parents"]["Mould"] == 0
 
 
 def test_scores_of_the_head_noun_are_features():
     found = features_of("muffin_tin", own_match("Item", 0.6), own_match("Shelf", 0.3))
     assert found["score"] == {"Item": 0.6, "Mould": 0.0, "Shelf": 0.3, "Goods": 0.0}
-    assert found["is_best"] == {"Item": 1.0, "Mould": 0.0, "Shelf": 0.0, "Goods": 0.0}
-    assert found["is_missing"] == {"Item": 0.0, "Mould": 1.0, "Shelf": 0.0, "Goods": 1.0}
     assert found["log_score"]["Mould"] == pytest.approx(math.log(KIND_RANKING.min_score))
 
 
@@ -126,10 +143,11 @@ def test_a_name_without_a_class_by_its_head_noun_is_left_to_other_evidence():
 def test_any_name_and_any_names_above_give_finite_features(parents: list[str], name: str):
     ranker, reader = RANKER
     phrase = reader.read(name, tuple(parents))
-    kinds = ranker.find_kinds(phrase, tuple(parents), (0.1, 0.2, 0.3))
-    found = np.stack(ranker.features(phrase, tuple(parents), kinds, [own_match("Item")]))
+    heads = ranker._matcher.head_shares(phrase, tuple(parents), (0.1, 0.2, 0.3))
+    kinds = ranker.find_kinds(heads)
+    found = np.stack(ranker.features(phrase, tuple(parents), heads, kinds, [own_match("Item")]))
     assert np.isfinite(found).all()
-    assert (found[4:] <= 1 + 1e-9).all()
+    assert (found[1:] <= 1 + 1e-6).all()
 
 
 RANKER = make_ranker()

@@ -38,7 +38,7 @@ def test_asks_what_the_record_lacks(tmp_path: Path, monkeypatch: pytest.MonkeyPa
     library = FakeXllamacpp(lambda text: {"C": 0.9, '"': 0.1} if text.endswith('"class": "') else {'"': 0.9})
     monkeypatch.setitem(sys.modules, "llama_cpp", None)
     monkeypatch.setitem(sys.modules, "xllamacpp", library)
-    options = argparse.Namespace(objects=2, record=tmp_path / "record.jsonl")
+    options = argparse.Namespace(objects=2, listed_objects=None, record=tmp_path / "record.jsonl")
     record = Record(options.record)
     for outcome in ask_form(f"gguf:{weights}", "A, all classes", [ROOM], record, options):
         record.add(outcome)

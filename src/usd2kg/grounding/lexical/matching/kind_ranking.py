@@ -1,17 +1,18 @@
 """Rank the classes of an ontology that nobody prepared by what kinds of things a name means.
 
-Labels and comments of a foreign ontology seldom use the words of WordNet: muffin tins are baking moulds there. So all
-kinds that a noun belongs to, by hypernyms and by categories of common usage, are compared with all labels and comments
-by the cosine of TF-IDF vectors (Salton and Buckley, 1988). A conditional logit (McFadden, 1974) over these cosines and
-the score of the head noun ranks the classes. `tools/fit_kind_ranking.py` fits its weights on ontologies and names, and
-writes them to `data/kind_ranking.json`.
+Labels and comments of a foreign ontology seldom use the words of WordNet: muffin tins are baking moulds there. So the
+words of a name and of all kinds that it may be, by hypernyms and by categories of common usage, are compared with all
+labels and comments: by the cosine of TF-IDF vectors (Salton and Buckley, 1988), and by that of the vectors of words,
+for which a tap is like a faucet. A conditional logit (McFadden, 1974) over these cosines and the score of the head noun
+ranks the classes. `tools/fit_kind_ranking.py` fits its weights on ontologies and names, and writes them to
+`data/kind_ranking.json`.
 """
 
 import json
 import math
 import re
 from collections import Counter
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from functools import cache, lru_cache, partial
 from typing import NamedTuple
 
@@ -23,6 +24,7 @@ from usd2kg.grounding.lexical.alignment.lexicon import Lexicon
 from usd2kg.grounding.lexical.concepts.categories import KindNames
 from usd2kg.grounding.lexical.concepts.sizes import Size
 from usd2kg.grounding.lexical.concepts.taxonomy import Taxonomy
+from usd2kg.grounding.lexical.concepts.word_vectors import load_word_vectors
 from usd2kg.grounding.lexical.matching.head_matching import Match
 from usd2kg.grounding.lexical.matching.phrase_matching import PhraseMatcher
 from usd2kg.grounding.lexical.reading.noun_phrase import NamePhrase, NameReader
@@ -33,34 +35,40 @@ from usd2kg.ontology import ClassIRI, OntologyClass, TBox
 __all__ = ["KindFeatures", "KindRanker"]
 
 Values = NDArray[np.float64]
+Heads = Sequence[tuple[float, tuple[str, ...]]]
+"""Probability and words of each known compound that ends at a possible head noun."""
 
 
 class KindFeatures(NamedTuple):
-    """Features of a class for a name; each has shape (classes,), the cosines are 0 to 1."""
+    """Features of a class for a name; each has shape (classes,).
+
+    The texts of a class are its label, its comment, and the labels of the classes above it. Cosines of TF-IDF vectors
+    are 0 to 1; `similar_…` are cosines of vectors of words, -1 to 1.
+    """
 
     log_score: Values
     """Logarithm of the score of the class by the head noun, at least that of `min_score`."""
     score: Values
     """The score itself; 0 without one."""
-    is_best: Values
-    """Whether it has the highest score."""
-    is_missing: Values
-    """Whether it has no score."""
-    label: Values
-    """Cosine of the label and the most similar kind, times the weight of the kind."""
-    label_squared: Values
-    label_words: Values
-    """Cosine of the label and the words of all kinds."""
-    comment_words: Values
-    """Cosine of the comment and the words of all kinds."""
-    above_words: Values
-    """Cosine of the superclasses' labels and the words of all kinds."""
-    name_comment: Values
-    """Cosine of the comment and the words of the name."""
-    parent_label: Values
-    """Cosine of the label and the words of the names above."""
-    parent_comment: Values
-    """Cosine of the comment and the words of the names above."""
+    label_kinds: Values
+    """Cosine of the label and the kinds."""
+    comment_kinds: Values
+    above_kinds: Values
+    comment_name: Values
+    """Cosine of the comment and the name."""
+    label_parents: Values
+    """Cosine of the label and the names above."""
+    comment_parents: Values
+    similar_label_kinds: Values
+    similar_comment_kinds: Values
+    similar_above_kinds: Values
+    similar_label_name: Values
+    similar_label_head: Values
+    """Cosine of the label and a known compound at a head noun, times the probability of the head noun; the highest."""
+    similar_comment_name: Values
+    similar_above_name: Values
+    similar_label_parents: Values
+    similar_comment_parents: Values
     is_default: Values
     """Whether it is the default class."""
 
@@ -81,6 +89,7 @@ class KindRanker:
         kinds: KindNames,
     ) -> None:
         self._tbox = tbox
+        self._lexicon = lexicon
         self._taxonomy = taxonomy
         self._reader = reader
         self._matcher = matcher
@@ -102,10 +111,15 @@ class KindRanker:
             _Index([[self._unit_vector(dict.fromkeys(words, 1.0)) for words in of_class] for of_class in column])
             for column in zip(*texts, strict=True)
         )
+        self._vectors = load_word_vectors()
+        self._near_labels, self._near_comments, self._near_above = (
+            _NearIndex([[self._embed(words) for words in of_class] for of_class in column])
+            for column in zip(*texts, strict=True)
+        )
         # Names share words and kinds.
         self._kind_words = lru_cache(maxsize=16384)(self._split_kind)
         self._kinds_of = lru_cache(maxsize=4096)(self._find_kinds_of)
-        self._label_cosines = lru_cache(maxsize=4096)(self._compute_label_cosines)
+        self._head_similarity = lru_cache(maxsize=4096)(self._compute_head_similarity)
         self._name_words = lru_cache(maxsize=4096)(self._read_name_words)
 
     def rank(
@@ -117,8 +131,10 @@ class KindRanker:
         """
         if not matches or matches[0].is_listed:
             return tuple(matches)
-        kinds = self.find_kinds(phrase, parents, size)
-        utilities = _weights() @ np.stack(self.features(phrase, parents, kinds, matches))
+        heads = self._matcher.head_shares(phrase, parents, size)
+        kinds = self.find_kinds(heads)
+        utilities = _weights() @ np.stack(self.features(phrase, parents, heads, kinds, matches))
+        utilities[[self._places[iri] for iri in self._excluded_classes(heads)]] = -np.inf
         shares = np.exp(utilities - utilities.max())
         own = {match.class_iri: match for match in reversed(matches)}
         highest = max(match.score for match in matches)
@@ -132,12 +148,24 @@ class KindRanker:
                 ranked.append(Match(iri, score, reason, phrase, len(phrase.words)))
         return tuple(ranked)
 
-    def find_kinds(
-        self, phrase: NamePhrase, parents: tuple[str, ...], size: Size | None
-    ) -> Mapping[tuple[str, ...], float]:
-        """Return the words of each kind that a name may mean → its weight, 0 to 1."""
+    def _excluded_classes(self, heads: Heads) -> set[ClassIRI]:
+        """Return the classes that nothing of a kind belongs to which the likely head nouns may mean."""
+        if not self._lexicon.excluded_classes:
+            return set()
+        lemmas = ["".join(words) for share, words in heads if share >= KIND_RANKING.min_head_share]
+        synsets = {sense.synset for lemma in lemmas for sense in self._taxonomy.senses(lemma)}
+        kinds = {up for synset in synsets for up, _ in self._taxonomy.walk_up(synset)}
+        excluded = (self._lexicon.excluded_classes.get(synset, frozenset()) for synset in kinds)
+        return {iri for classes in excluded for iri in classes if iri in self._places}
+
+    def find_kinds(self, heads: Heads) -> Mapping[tuple[str, ...], float]:
+        """Return the words of each kind that a name may mean → its weight, 0 to 1.
+
+        Args:
+            heads: as `PhraseMatcher.head_shares` returns them.
+        """
         kinds: dict[tuple[str, ...], float] = {}
-        for share, words in self._matcher.head_shares(phrase, parents, size):
+        for share, words in heads:
             if share < KIND_RANKING.min_head_share:
                 continue
             for kind, weight in self._kinds_of(words).items():
@@ -148,6 +176,7 @@ class KindRanker:
         self,
         phrase: NamePhrase,
         parents: tuple[str, ...],
+        heads: Heads,
         kinds: Mapping[tuple[str, ...], float],
         matches: Sequence[Match],
     ) -> KindFeatures:
@@ -155,29 +184,32 @@ class KindRanker:
         scores = np.zeros(len(self.classes))
         for match in reversed(matches):
             scores[self._places[match.class_iri]] = match.score
-        label = np.zeros(len(self.classes))
         weights: dict[str, float] = {}
         for kind, weight in kinds.items():
-            rows, cosines = self._label_cosines(kind)
-            label[rows] = np.maximum(label[rows], weight * cosines)
             for word in kind:
                 weights[word] = max(weights.get(word, 0.0), weight)
-        bag = self._unit_vector(weights)
-        name = self._unit_vector(dict.fromkeys(map(self._taxonomy.singular, phrase.words), 1.0))
-        place = self._unit_vector(dict.fromkeys((word for text in parents for word in self._name_words(text)), 1.0))
+        name_words = dict.fromkeys(map(self._taxonomy.singular, phrase.words), 1.0)
+        place_words = dict.fromkeys((word for text in parents for word in self._name_words(text)), 1.0)
+        bag, name, place = map(self._unit_vector, (weights, name_words, place_words))
+        near_bag, near_name, near_place = map(self._vectors.embed, (weights, name_words, place_words))
         return KindFeatures(
             log_score=np.log(np.maximum(scores, KIND_RANKING.min_score)),
             score=scores,
-            is_best=(scores == scores.max()).astype(float),
-            is_missing=(scores == 0).astype(float),
-            label=label,
-            label_squared=label**2,
-            label_words=self._labels.cosines(bag),
-            comment_words=self._comments.cosines(bag),
-            above_words=self._above.cosines(bag),
-            name_comment=self._comments.cosines(name),
-            parent_label=self._labels.cosines(place),
-            parent_comment=self._comments.cosines(place),
+            label_kinds=self._labels.cosines(bag),
+            comment_kinds=self._comments.cosines(bag),
+            above_kinds=self._above.cosines(bag),
+            comment_name=self._comments.cosines(name),
+            label_parents=self._labels.cosines(place),
+            comment_parents=self._comments.cosines(place),
+            similar_label_kinds=self._near_labels.cosines(near_bag),
+            similar_comment_kinds=self._near_comments.cosines(near_bag),
+            similar_above_kinds=self._near_above.cosines(near_bag),
+            similar_label_name=self._near_labels.cosines(near_name),
+            similar_label_head=self._similarity_of_heads(heads),
+            similar_comment_name=self._near_comments.cosines(near_name),
+            similar_above_name=self._near_above.cosines(near_name),
+            similar_label_parents=self._near_labels.cosines(near_place),
+            similar_comment_parents=self._near_comments.cosines(near_place),
             is_default=self._is_default,
         )
 
@@ -206,11 +238,17 @@ class KindRanker:
     def _split_kind(self, kind: str) -> tuple[str, ...]:
         return tuple(map(self._taxonomy.singular, re.split(r"[\s-]+", kind)))
 
-    def _compute_label_cosines(self, kind: tuple[str, ...]) -> tuple[NDArray[np.intp], Values]:
-        """Return the classes whose labels share a word with a kind, and the cosines."""
-        cosines = self._labels.cosines(self._unit_vector(dict.fromkeys(kind, 1.0)))
-        rows = np.flatnonzero(cosines)
-        return rows, cosines[rows]
+    def _similarity_of_heads(self, heads: Heads) -> Values:
+        if not heads:
+            return np.zeros(len(self.classes))
+        return np.asarray(np.max([share * self._head_similarity(words) for share, words in heads], axis=0))
+
+    def _compute_head_similarity(self, words: tuple[str, ...]) -> Values:
+        """Return the cosine of each label and a compound, (classes,)."""
+        return self._near_labels.cosines(self._embed((*words[:-1], self._taxonomy.singular(words[-1]))))
+
+    def _embed(self, words: Iterable[str]) -> NDArray[np.float32]:
+        return self._vectors.embed(dict.fromkeys(words, 1.0))
 
     def _read_name_words(self, name: str) -> tuple[str, ...]:
         return tuple(map(self._taxonomy.singular, self._reader.read(name, ()).words))
@@ -235,8 +273,8 @@ class KindRanker:
         label, place = self._tbox.by_iri[iri].readable_name, self._places[iri]
 
         def similarity(kind: tuple[str, ...]) -> float:
-            rows, cosines = self._label_cosines(kind)
-            return kinds[kind] * float(cosines[rows == place].sum())
+            own = self._labels.cosines(self._unit_vector(dict.fromkeys(kind, 1.0)))
+            return kinds[kind] * float(own[place] + self._near_labels.cosines(self._embed(kind))[place])
 
         kind = max(sorted(kinds), key=similarity)
         name = " ".join(phrase.words)
@@ -269,6 +307,18 @@ class _Index:
             values = np.concatenate([value * column[1] for column, value in found])
             np.maximum.at(best, self._owners, np.bincount(rows, values, minlength=len(self._owners)))
         return best
+
+
+class _NearIndex:
+    """Vectors of the texts of each class, at least one."""
+
+    def __init__(self, vectors: Sequence[Sequence[NDArray[np.float32]]]) -> None:
+        self._matrix = np.array([vector for texts in vectors for vector in texts])
+        self._starts = np.cumsum([0, *map(len, vectors[:-1])])
+
+    def cosines(self, vector: NDArray[np.float32]) -> Values:
+        """Return the highest cosine of a vector and a text of each class, (classes,)."""
+        return np.maximum.reduceat(self._matrix @ vector, self._starts).astype(np.float64)
 
 
 @cache
