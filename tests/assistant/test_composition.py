@@ -118,3 +118,14 @@ def test_answers_contradict_each_other():
     assert not contradict(
         InterpretedAnswer("", table, places=("/Table",)), InterpretedAnswer("", empty, places=("/Shelf", "/Table"))
     )
+
+
+@pytest.mark.parametrize(
+    ("question", "expected"),
+    [
+        ("list the cups on the bar table", "There are an espresso cup and a mug on the bar table."),
+        ("Which pot has a lid?", "There is a stockpot that has a lid."),
+    ],
+)
+def test_a_list_says_what_was_asked_of_the_things(kitchen: GraphStore, question: str, expected: str):
+    assert ask_offline(kitchen, question).sentence == expected

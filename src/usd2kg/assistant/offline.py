@@ -70,6 +70,9 @@ class _Attempt(NamedTuple):
 _COMPOSED = word_set("assistant", "composed_types")
 """Question types that composition reads in any words: what it does not read of them, a pattern may have misread."""
 
+_LISTS = frozenset(["all", "is-there", "noun"])
+"""Question types whose sentence has less of the question than that of the composed answer."""
+
 
 def ask_offline(graph: GraphStore, text: str, since: Path | None = None) -> InterpretedAnswer:
     """Return the answer to a question in English; frequent questions in German, French, Spanish and Italian too.
@@ -141,7 +144,7 @@ class _Answerer:
                 raise GraphError(composed.problem or self._advice(text, matched))
             return matched.answer
         if not contradict(composed.answer, matched.answer):
-            return matched.answer
+            return composed.answer if matched.question in _LISTS else matched.answer
         if tells_more(composed.answer, matched.answer):
             return composed.answer
         raise UnknownWordError(

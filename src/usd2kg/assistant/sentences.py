@@ -11,6 +11,7 @@ from usd2kg.query.lookup.prepositions import preposition_pattern
 from usd2kg.query.lookup.word_forms import IRREGULAR_PLURALS
 
 __all__ = [
+    "agree",
     "begin_sentence",
     "count_phrase",
     "join_few",
@@ -25,6 +26,22 @@ __all__ = [
 
 _MODIFIED = re.compile(rf"(?P<noun>.+?)(?P<rest> (?:of|that|with|without|{preposition_pattern()}) .+)")
 _SAME_PLURAL = frozenset(["cutlery", "equipment", "furniture", "scissors", "sheep", "stairs"])
+
+
+_SINGULAR = {"are": "is", "do": "does", "have": "has", "were": "was"}
+_VERB = re.compile(rf"that ({'|'.join([*_SINGULAR, *_SINGULAR.values()])})\b")
+_PLACED = re.compile(rf"that (?:is|are) (?=(?:\w+ing )?(?:{preposition_pattern()})\b)")
+
+
+def agree(said: str, count: int) -> str:
+    """Return what a question says of things in the number of the things, and without a verb before a place.
+
+    >>> agree("that are on the table", 2), agree("that have two drawers", 1), agree("that is red", 2)
+    ('on the table', 'that has two drawers', 'that are red')
+    """
+    said = _PLACED.sub("", said)
+    forms = _SINGULAR if count == 1 else {one: many for many, one in _SINGULAR.items()}
+    return _VERB.sub(lambda found: f"that {forms.get(found[1], found[1])}", said)
 
 
 def begin_sentence(text: str) -> str:

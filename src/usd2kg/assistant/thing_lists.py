@@ -3,7 +3,7 @@
 from collections.abc import Sequence
 
 from usd2kg.assistant.interpreted_answer import InterpretedAnswer
-from usd2kg.assistant.sentences import begin_sentence, count_phrase, join_few, name_things, the_thing
+from usd2kg.assistant.sentences import agree, begin_sentence, count_phrase, join_few, name_things, the_thing
 from usd2kg.errors import GraphError
 from usd2kg.query import Answer
 from usd2kg.query.lookup import Nouns, SceneFacts, Things
@@ -18,13 +18,14 @@ class ThingLists:
         self._facts = facts
         self._nouns = nouns
 
-    def answer(self, things: Things) -> InterpretedAnswer:
-        """Return the answer that lists things."""
+    def answer(self, things: Things, said: str = "") -> InterpretedAnswer:
+        """Return the answer that lists things, with what the question says of them: that are on the table."""
         table = self.located(things.iris)
         if not things.iris:
             return InterpretedAnswer(f"all {things.text}", table, sentence=f"{begin_sentence(things.absence)}.")
         verb = "is" if len(things.iris) == 1 else "are"
-        sentence = f"There {verb} {name_things(self._facts, things.iris)}{things.suffix}."
+        listed = f"{name_things(self._facts, things.iris)} {agree(said, len(things.iris))}".strip()
+        sentence = f"There {verb} {listed}{things.suffix}."
         return InterpretedAnswer(f"all {things.text}", table, sentence=sentence)
 
     def check_kind(self, things: Things) -> None:

@@ -113,7 +113,7 @@ class ComposedAnswers:
 
     def _list(self, group: Group) -> InterpretedAnswer:
         self._check_exists(group)
-        return self._things.answer(group.things)
+        return self._things.answer(group.things, group.said)
 
     def _check_exists(self, group: Group) -> None:
         """Check that the scene has things of a noun, of which others may be asked.
@@ -153,7 +153,7 @@ class ComposedAnswers:
             raise UnknownWordError(f"not known: {group.noun.note}, which may be something else")
         count = len(group.iris)
         quantity = group.quantity if group.quantity is not None and not group.quantity.is_each else Quantity(1)
-        found = self._things.answer(group.things)
+        found = self._things.answer(group.things, group.said)
         yes = quantity.holds(count)
         return InterpretedAnswer(
             f"whether there is {group.text}", found.answer, yes, sentence=yes_or_no(yes, found.sentence)

@@ -16,6 +16,7 @@ __all__ = ["EVERYTHING", "Filters", "both", "negated", "then"]
 
 _HELD = ("on", "inside", "attached", "part")
 """Relations of what a thing has."""
+_PAIR = 2
 
 
 class Filters:
@@ -55,10 +56,11 @@ class Filters:
         """Choose what is between two things."""
 
         def choose(iris: Sequence[str]) -> Collection[str]:
-            pairs = [(first, second) for first in one.existing() for second in other.existing() if first != second]
+            pairs = {frozenset((first, second)) for first in one.existing() for second in other.existing()}
+            pairs = {pair for pair in pairs if len(pair) == _PAIR}
             if len(pairs) != 1:
                 raise GraphError(f"{one.text!r} and {other.text!r} are {len(pairs)} pairs of things; expected one")
-            found = find_between(self._facts, *pairs[0])
+            found = find_between(self._facts, *sorted(pairs.pop()))
             if found is None:
                 raise GraphError(f"not known: the graph has no boxes for {one.text} and {other.text}")
             return set(found) & set(iris)

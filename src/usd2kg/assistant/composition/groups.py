@@ -69,12 +69,15 @@ class Group:
     """How words were read that are not known as they are."""
     cost: int = 0
     """How far the reading is from the words: 0 if all of them are understood as they are."""
+    said: str = ""
+    """What modifiers and predicates after the noun say of the things, as it is written."""
 
-    def keep(self, one: Filter, text: str) -> "Group":
+    def keep(self, one: Filter, text: str, said: str = "") -> "Group":
         """Return the things to which a further modifier applies."""
         return replace(
             self,
             text=text,
+            said=f"{self.said} {said}".strip(),
             filters=(*self.filters, one),
             guesses=(*self.guesses, *one.guesses),
             cost=self.cost + one.cost,

@@ -4,7 +4,7 @@ from collections.abc import Callable
 from dataclasses import replace
 
 from usd2kg.assistant.composition.filters import EVERYTHING, Filters, both, negated
-from usd2kg.assistant.composition.groups import ANY, NO, Filter, Group, Quantity
+from usd2kg.assistant.composition.groups import ANY, EACH, NO, Filter, Group, Quantity, exactly
 from usd2kg.assistant.composition.noun_phrases import NEAREST, FilterParses, NounPhrases
 from usd2kg.assistant.composition.words import BE, Words, is_function_word
 from usd2kg.knowledge import word_set
@@ -166,6 +166,9 @@ class Modifiers:
 
     def _between(self, at: int) -> FilterParses:
         for first, end in self._phrases.parse(at):
+            if first.quantity in {EACH, exactly(2)} or (first.is_definite and first.is_plural and not first.is_joined):
+                # Between the two nightstands.
+                yield self._filters.between(first, first), end
             for second, after in self._phrases.parse(end + 1) if self._word(end) == "and" else ():
                 yield self._filters.between(first, second), after
 

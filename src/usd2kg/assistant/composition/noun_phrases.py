@@ -148,7 +148,8 @@ class NounPhrases:
         yield group, end
         for one, after in self.modifier(end, is_all=group.is_general and group.quantity == EACH):
             if after > end:
-                yield from self._modified(group.keep(one, self._words.text(start, after)), start, after)
+                kept = group.keep(one, self._words.text(start, after), self._words.text(end, after))
+                yield from self._modified(kept, start, after)
 
     def joined(self, at: int) -> GroupParses:
         """Parse a noun without a determiner, or several: cups and plates."""
@@ -181,10 +182,11 @@ class NounPhrases:
             words = self._words[at:end]
             text = " ".join(words)
             is_part = "of" in words[1:-1] and all(word in _LINKS or not is_function_word(word) for word in words)
-            if any(map(is_function_word, words)) and not (is_part or (len(words) > 1 and concepts_named(text.lower()))):
+            is_listed = is_part or (len(words) > 1 and bool(concepts_named(text.lower())))
+            if any(map(is_function_word, words)) and not is_listed:
                 continue
-            # A single word may be misspelt; a compound with an unknown word is none.
-            if text in _VERBS or (len(words) > 1 and not all(map(self._nouns.knows, words)) and not is_part):
+            # A single word may be misspelt; a compound with an unknown word is none, unless the lexicon lists it.
+            if text in _VERBS or (len(words) > 1 and not all(map(self._nouns.knows, words)) and not is_listed):
                 continue
             is_definite = self._word(at - 1) in _DEFINITE or self._word(at - 1).endswith("'s")
             if (text, is_definite) not in self._known:

@@ -129,11 +129,13 @@ class Questions:
             yield Reading(kind, (group,))
         for one, end in self._modifiers.parse(at):
             if self._done(end):
-                yield self._restricted(kind, group, one, at)
+                yield self._restricted(kind, group, one, at, is_verb=False)
 
-    def _restricted(self, kind: str, group: Group, one: Filter, at: int) -> Reading:
-        """Return a reading about the things to which what the words from a place on say applies."""
-        return Reading(kind, (group.keep(one, f"{self._named(group)} that {self._words.text(at, self._end)}"),))
+    def _restricted(self, kind: str, group: Group, one: Filter, at: int, *, is_verb: bool = True) -> Reading:
+        """Return a reading about the things to which the words from a place on apply, which may begin with a verb."""
+        said = self._words.text(at, self._end)
+        said = f"that {said}" if is_verb else said
+        return Reading(kind, (group.keep(one, f"{self._named(group)} {said}", said),))
 
     def _named(self, group: Group) -> str:
         return "things" if group.is_general else group.text

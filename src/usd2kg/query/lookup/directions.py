@@ -49,8 +49,9 @@ def find_between(facts: SceneFacts, one: str, other: str) -> list[str] | None:
     """Return the objects between two things, by prim path; None if one of them has no box.
 
     The middle of such an object is over the strip from middle to middle, as wide as the narrower thing, and outside
-    both boxes; their heights overlap. `u2k:Between` requires most of the footprint to be in the convex hull of the two,
-    which a bed between two bedside tables is not; it also relates each object to its nearest two anchors only.
+    both boxes; their heights overlap. An object that fills half of the strip's width, and lies along it, may have its
+    middle beside it, such as a bed between two bedside tables. `u2k:Between` requires most of the footprint to be in
+    the convex hull of the two, which that bed is not; it also relates each object to its nearest two anchors only.
     """
     first, second, table = facts.body(one), facts.body(other), facts.bodies.table
     if first.lower is None or first.upper is None or second.lower is None or second.upper is None:
@@ -67,7 +68,10 @@ def find_between(facts: SceneFacts, one: str, other: str) -> list[str] | None:
     half = min(float(np.min((upper - lower)[:2])) for lower, upper in boxes) / 2
     lowest, highest = max(first.lower[2], second.lower[2]), min(first.upper[2], second.upper[2])
     is_level = (table.lower[:, 2] < highest) & (table.upper[:, 2] > lowest)
-    is_between = (way > 0) & (way < length) & (aside <= half) & is_level
+    reach = (table.upper - table.lower)[:, :2] / 2 @ np.abs(np.array([along, [-along[1], along[0]]])).T
+    covered = np.minimum(aside + reach[:, 1], half) - np.maximum(aside - reach[:, 1], -half)
+    is_filled = (covered >= half) & (way - reach[:, 0] > 0) & (way + reach[:, 0] < length)
+    is_between = (way > 0) & (way < length) & ((aside <= half) | is_filled) & is_level
     for lower, upper in boxes:
         is_between &= ~((middle > lower[:2]) & (middle < upper[:2])).all(axis=1)
     return facts.sorted(table.iris[row] for row in np.flatnonzero(is_between).tolist())

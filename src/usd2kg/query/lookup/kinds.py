@@ -53,11 +53,14 @@ class Kinds:
 
     def _classes_named(self, name: str) -> list[ox.NamedNode]:
         wanted, iris = name_words(name), {name, expand_curie(name)}
+        meant = {concept for one in self._names(name)[1:] for concept in concepts_named(one)[:1]}
         return [
             node
             for node, label in self._classes
             if node.value in iris
             or (wanted and wanted in (name_words(label), name_words(re.split(r"[#/]", node.value)[-1])))
+            # A class with another name for it: the trash container is the waste container.
+            or (label and not meant.isdisjoint(concepts_named(label)[:1]))
         ]
 
     def usual_concepts(self, name: str) -> frozenset[str]:
@@ -65,15 +68,14 @@ class Kinds:
         return frozenset(iri for one in self._names(name) for iri in concepts_named(one)[:1])
 
     def _names(self, name: str) -> list[str]:
-        """Return a noun, its singular, and nouns that people use for it; none for a name with a number: rack A1."""
-        if any(letter.isdigit() for letter in name):
+        """Return a noun, its singular, and nouns that people use for it; none for a name: rack A1, rack B."""
+        if any(letter.isdigit() for letter in name) or any(len(word) == 1 for word in name.split()):
             return []
         *before, last = name.split() or [name]
         head = singular(last)
-        return [
-            name,
-            *(" ".join([*before, noun]) for noun in (head, *_INTERCHANGEABLE.get(head, "").split("/")) if noun),
-        ]
+        near = [" ".join([*before, noun]) for noun in (head, *_INTERCHANGEABLE.get(head, "").split("/")) if noun]
+        whole = _INTERCHANGEABLE.get(near[0], "").split("/") if before else []
+        return [name, *near, *filter(None, whole)]
 
     def _concepts_named(self, name: str) -> list[ox.NamedNode]:
         wanted = name_words(name)

@@ -281,7 +281,8 @@ class Nouns(PlaceNouns):
             if parts is not None and self._parts.are_parts(parts):
                 raise GraphError(f"not known: no {noun} is known, but {len(parts.iris)} of {head} are parts of things")
             return found
-        if may_shorten:
+        # Where all lights are only lights, a ceiling light is one of them; not so where most are of a known kind.
+        if may_shorten and 2 * len(general.iris) >= len(self._kinds.objects(general.text)):
             note = self._guess([noun], general.text, ", which is more general")
             self.notes.append(note)
             return replace(general, note=note)

@@ -52,6 +52,7 @@ _RELATIVE = re.compile(
     re.IGNORECASE,
 )
 """Relative pronouns with their verb, and participles and adverbs before a preposition."""
+_VOWELS = frozenset("aeiouy")
 _MIN_STEM = 2
 """Fewest letters that remain before a stripped ending."""
 
@@ -60,14 +61,16 @@ _MIN_STEM = 2
 def singular(word: str) -> str:
     """Return an approximate singular; errors cancel out where both sides of a comparison are stemmed.
 
-    >>> [singular(word) for word in ("boxes", "knives", "gloves", "gas")]
-    ['box', 'knife', 'glove', 'gas']
+    >>> [singular(word) for word in ("boxes", "knives", "gloves", "gas", "TVs")]
+    ['box', 'knife', 'glove', 'gas', 'TV']
     """
     if word in _IRREGULAR:
         return _IRREGULAR[word]
     for ending, replacement in _ENDINGS:
         stem = word.removesuffix(ending)
-        if stem != word and len(stem) >= _MIN_STEM + (ending == "s") and not word.endswith("ss"):
+        # Acronyms such as TV have few letters, and no vowels.
+        least = _MIN_STEM + (ending == "s" and not _VOWELS.isdisjoint(stem.lower()))
+        if stem != word and len(stem) >= least and not word.endswith("ss"):
             return stem + replacement
     return word
 
