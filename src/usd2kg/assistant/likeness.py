@@ -38,7 +38,7 @@ class LikenessAnswers(Answers):
             chosen = [iri for iri in things.iris if has_material(self._facts, iri, word)]
         elif restricts(word):
             found = self._nouns.find(f"{word} {thing}")
-            return self._verdict(things, word, list(found.iris))
+            return self._verdict(things, word, [iri for iri in things.iris if iri in found.iris])
         else:
             raise UnknownWordError(f"{adjective!r} is not understood as a property")
         if not all(known.values()):

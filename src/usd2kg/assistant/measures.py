@@ -15,9 +15,10 @@ from usd2kg.knowledge import word_map, word_set
 from usd2kg.query.body_table import Body
 from usd2kg.query.lookup import UnknownWordError
 from usd2kg.query.lookup.amounts import read_sides
-from usd2kg.query.lookup.body_measures import AREA, ELEVATION, HEIGHT, MASS, MEASURES, SIZE, Measure
+from usd2kg.query.lookup.body_measures import AREA, ELEVATION, HEIGHT, MASS, MEASURES, SIZE, WIDTH, Measure
 from usd2kg.query.lookup.colors import COLORS, has_color, has_material, is_material, material_words, own_colors
 from usd2kg.query.lookup.modifiers import restricts
+from usd2kg.query.lookup.openable_things import find_openable
 from usd2kg.query.lookup.related_things import find_parts
 from usd2kg.query.lookup.word_forms import is_plural, split_phrase
 from usd2kg.query.settings import WORDS
@@ -109,6 +110,8 @@ class MeasureAnswers(Answers):
         x, y, z = (float(side) for side in end - start)
         shortest, middle, longest = sorted((x, y, z))
         value = measure.of(Body(start, end, (shortest, middle, longest), None))
+        # A wardrobe is as wide as its front; a hall is longer than wide.
+        value = min(x, y) if measure is WIDTH else value
         of = "walls and floors" if shells else "all things"
         sentence = f"The {of} of the scene measure {self._units.sides((x, y, z))} along x, y and z."
         return InterpretedAnswer(
@@ -244,11 +247,10 @@ class MeasureAnswers(Answers):
         table = facts.table(spots, center_m=spots)
         return InterpretedAnswer(f"where to put {text}", table, sentence=sentence, places=paths)
 
-    def _openable(self, kind: str = "things") -> InterpretedAnswer:
-        """Return the things of a kind that a joint moves; without joints, those that open by what they are."""
+    def _openable(self, kind: str = "things", verb: str = "open", action: str = "") -> InterpretedAnswer:
+        """Return the things of a kind that a joint moves, or that open by what they are."""
         things, facts = self._nouns.find(kind), self._facts
-        moved = facts.opened_by_joint & set(facts.things)
-        found = moved or {iri for noun in word_set("assistant", "closed_things") for iri in self._nouns.known(noun)}
+        found, is_by_kind = find_openable(facts, self._nouns, (action or verb).split()[0].lower())
         if self._nouns.is_everything(kind):
             chosen = facts.sorted(found)
         else:
@@ -257,7 +259,7 @@ class MeasureAnswers(Answers):
                 iri for iri in things.iris if iri in found or not found.isdisjoint(find_parts(self._facts, [iri]))
             ]
         named = name_things(facts, chosen) or f"no {things.text}"
-        how = "" if moved else "by what they are, since the stage has no joints: "
+        how = "by what they are, since the stage has no joints for them: " if is_by_kind else ""
         sentence = begin_sentence(f"{how}{named} can be opened or moved{things.suffix}.")
         return InterpretedAnswer(f"{things.text} that open", facts.table(chosen), bool(chosen), sentence=sentence)
 

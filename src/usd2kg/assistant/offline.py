@@ -20,6 +20,7 @@ from usd2kg.assistant.coverage import (
 from usd2kg.assistant.describe import description_answer
 from usd2kg.assistant.differences import DifferenceAnswers
 from usd2kg.assistant.distances import DistanceAnswers
+from usd2kg.assistant.foreign_questions import in_english
 from usd2kg.assistant.intents import parse_intent
 from usd2kg.assistant.interpreted_answer import InterpretedAnswer, contradict
 from usd2kg.assistant.likeness import LikenessAnswers
@@ -75,7 +76,7 @@ _LISTS = frozenset(["all", "is-there", "noun"])
 
 
 def ask_offline(graph: GraphStore, text: str, since: Path | None = None) -> InterpretedAnswer:
-    """Return the answer to a question in English; frequent questions in German, French, Spanish and Italian too.
+    """Return the answer to a question in English, or in German, French, Spanish and Italian by its words.
 
     A word that is not understood is an error, never the answer "no".
 
@@ -91,9 +92,29 @@ def ask_offline(graph: GraphStore, text: str, since: Path | None = None) -> Inte
     units = Units(text)
     asked = units.question
     found = [*match_phrases(asked), *filter(None, [parse_intent(asked)])]
-    answer = _Answerer(graph, not found or found[0].is_english, units, since).answer(asked)
+    try:
+        answer = _Answerer(graph, not found or found[0].is_english, units, since).answer(asked)
+    except GraphError:
+        if (english := in_english(asked)) is None:
+            raise
+        answer = _translated_answer(_Answerer(graph, True, units, since), english)
     units.check(answer.sentence)
     return answer
+
+
+def _translated_answer(answerer: "_Answerer", english: str) -> InterpretedAnswer:
+    """Return the answer to a question that was translated word by word.
+
+    Raises:
+        GraphError: the English words are not understood, or mean nothing in the scene: others may be meant.
+    """
+    try:
+        found = answerer.answer(english)
+    except GraphError as error:
+        raise GraphError(f"read as “{english}”: {error}") from error
+    if found.verdict is None and not (found.answer.rows or found.number):
+        raise GraphError(f"read as “{english}”: {found.sentence}")
+    return found.with_notes([f"read as “{english}”"])
 
 
 class _Answerer:

@@ -1,12 +1,10 @@
 """paraphrases: other wordings of a question, by the rules in `paraphrases.txt` and the order of its clauses."""
 
 import re
-from collections.abc import Iterator, Sequence
-from functools import cache
-from importlib.resources import files
-from typing import NamedTuple
+from collections.abc import Iterator
 
 from usd2kg.assistant.phrases import normalize, split_clauses
+from usd2kg.assistant.rewording import read_rules, reword
 
 __all__ = ["NOUNS_ONLY", "paraphrases"]
 
@@ -16,18 +14,6 @@ NOUNS_ONLY = re.compile(r"\b(is|are|was|were|be|am|has|have|had|do|does|i|we|you
 """What a clause has that is more than a noun phrase."""
 _OPEN = re.compile(r"(what|which|where|how|is|are)\b(?!.*\b(it|they|them|this|that|one)\b)", re.IGNORECASE)
 """A question without a pronoun for what was named before."""
-
-
-class _Rule(NamedTuple):
-    pattern: re.Pattern[str]
-    replacement: str
-
-
-@cache
-def _rules() -> Sequence[_Rule]:
-    lines = (files("usd2kg.assistant") / "paraphrases.txt").read_text("utf-8").splitlines()
-    parts = (line.split(" -> ") for line in lines if line and not line.startswith("#"))
-    return tuple(_Rule(re.compile(pattern, re.IGNORECASE), replacement) for pattern, replacement in parts)
 
 
 def paraphrases(text: str) -> Iterator[str]:
@@ -56,7 +42,4 @@ def paraphrases(text: str) -> Iterator[str]:
 
 
 def _reworded(text: str) -> str:
-    """Return a question after all rules."""
-    for pattern, replacement in _rules():
-        text = " ".join(pattern.sub(replacement, text).split())
-    return text
+    return reword(text, read_rules("paraphrases.txt"))

@@ -7,7 +7,7 @@ from typing import NamedTuple
 from usd2kg.languages.glossary import Glossary, load_lexicons
 from usd2kg.languages.settings import PHRASES
 
-__all__ = ["language_of", "translate"]
+__all__ = ["is_plural_form", "language_of", "translate"]
 
 _MODIFIER_ORDER = {"adjective": 0, "unknown": 1, "english": 1, "material": 2}
 """Role → position before the nouns in English."""
@@ -69,6 +69,16 @@ def language_of(words: tuple[str, ...]) -> str | None:
     """
     reading = _best_reading(words, None)
     return reading and reading.language
+
+
+def is_plural_form(word: str, language: str) -> bool:
+    """Return whether a lower-case noun of a language has another form than that of the dictionary: a plural, or a case.
+
+    >>> is_plural_form("regale", "de"), is_plural_form("bücherregal", "de"), is_plural_form("sillas", "es")
+    (True, False, True)
+    """
+    forms = load_lexicons()[language].parse(word)
+    return bool(forms) and forms[-1].cost > 0
 
 
 @lru_cache(maxsize=8192)

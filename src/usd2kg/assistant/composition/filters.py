@@ -5,11 +5,11 @@ from collections.abc import Collection, Sequence
 from usd2kg.assistant.composition.groups import ANY, Filter, Group, Quantity
 from usd2kg.assistant.relation_answers import RelationAnswers
 from usd2kg.errors import GraphError
-from usd2kg.knowledge import word_set
 from usd2kg.query.lookup import Nouns, SceneFacts, UnknownWordError
 from usd2kg.query.lookup.body_measures import ELEVATION, MASS, TOP, BodyMeasures, Measure
 from usd2kg.query.lookup.colors import COLORS, has_color, has_material, is_material, material_words, own_colors
 from usd2kg.query.lookup.directions import find_between
+from usd2kg.query.lookup.openable_things import find_openable
 from usd2kg.query.lookup.related_things import find_parts, find_related
 
 __all__ = ["EVERYTHING", "Filters", "both", "negated", "then"]
@@ -185,13 +185,16 @@ class Filters:
 
         return Filter(choose, group.guesses, group.cost)
 
-    def movable(self) -> Filter:
-        """Choose what a joint moves, and what has a part that one moves; without joints, what opens by its kind."""
-        moved = self._facts.opened_by_joint
-        opened = moved or {iri for noun in word_set("assistant", "closed_things") for iri in self._nouns.known(noun)}
-        return Filter(
-            lambda iris: [i for i in iris if i in opened or not opened.isdisjoint(find_parts(self._facts, [i]))]
-        )
+    def movable(self, verb: str) -> Filter:
+        """Choose what opens or moves; of a kind, also what has a part that does: a cabinet is opened by its door."""
+
+        def choose(iris: Sequence[str]) -> Collection[str]:
+            opened = find_openable(self._facts, self._nouns, verb).iris
+            if len(iris) == len(self._facts.things):
+                return opened
+            return [i for i in iris if i in opened or not opened.isdisjoint(find_parts(self._facts, [i]))]
+
+        return Filter(choose)
 
     def like(self, word: str) -> Filter:
         """Choose what has a colour or is made of a substance."""

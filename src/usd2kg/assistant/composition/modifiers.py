@@ -54,7 +54,7 @@ class Modifiers:
         elif word == "where":
             yield from self._where(at + 1)
         elif (end := self.able(at)) > at:
-            yield self._filters.movable(), end
+            yield self._filters.movable(self._word(end - 1)), end
         elif word == "not":
             for one, end in self.parse(at + 1):
                 yield negated(one), end

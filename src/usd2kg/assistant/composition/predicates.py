@@ -64,7 +64,7 @@ class Predicates:
             for one, end in self.verb(at + 1 + is_denied):
                 yield (negated(one) if is_denied else one), end
         elif (end := self._modifiers.able(at)) > at:
-            yield self._filters.movable(), end
+            yield self._filters.movable(self._word(end - 1)), end
         else:
             yield from self.verb(at)
 

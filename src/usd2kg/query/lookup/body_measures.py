@@ -24,6 +24,7 @@ __all__ = [
     "SIZE",
     "SUPERLATIVES",
     "TOP",
+    "WIDTH",
     "BodyMeasures",
     "Measure",
 ]

@@ -274,7 +274,9 @@ class Nouns(PlaceNouns):
             GraphError: things of a more general kind may be of this kind.
         """
         noun = found.text
-        general = find_more_general(self._facts, noun) if concepts_named(noun) and noun not in _ROOM_NOUNS else None
+        # No oven is empty: not all ovens may be.
+        is_kind = concepts_named(noun) and noun not in _ROOM_NOUNS and not restricts(noun.split(maxsplit=1)[0])
+        general = find_more_general(self._facts, noun) if is_kind else None
         if general is None:
             *before, head = noun.split() or [noun]
             parts = self._find(head) if before and is_noun(noun) else None

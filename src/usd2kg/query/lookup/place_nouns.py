@@ -25,6 +25,10 @@ class PlaceNouns:
         self._kinds = Kinds(facts)
         self._names = NameMatcher(facts, self._kinds)
 
+    def of_kind(self, noun: str) -> set[str]:
+        """Return the objects of the kind that a noun names, whatever their names are."""
+        return self._kinds.objects(noun)
+
     def in_area(self, text: str) -> set[str]:
         """Return the objects below the groups that are named after a place: the reception area."""
         return self._names.in_area(text)
