@@ -25,6 +25,7 @@ from usd2kg.assistant.intents import parse_intent
 from usd2kg.assistant.interpreted_answer import InterpretedAnswer, contradict
 from usd2kg.assistant.likeness import LikenessAnswers
 from usd2kg.assistant.measures import MeasureAnswers
+from usd2kg.assistant.misspellings import respelled
 from usd2kg.assistant.openings import OpeningAnswers
 from usd2kg.assistant.paraphrases import paraphrases
 from usd2kg.assistant.phrases import Phrase, match_phrases, normalize, split_clauses
@@ -95,26 +96,26 @@ def ask_offline(graph: GraphStore, text: str, since: Path | None = None) -> Inte
     try:
         answer = _Answerer(graph, not found or found[0].is_english, units, since).answer(asked)
     except GraphError:
-        if (english := in_english(asked)) is None:
+        if (other := in_english(asked) or respelled(asked, Nouns(graph.facts))) is None:
             raise
-        answer = _translated_answer(_Answerer(graph, True, units, since), english)
+        answer = _reworded_answer(_Answerer(graph, True, units, since), other)
     units.check(answer.sentence)
     return answer
 
 
-def _translated_answer(answerer: "_Answerer", english: str) -> InterpretedAnswer:
-    """Return the answer to a question that was translated word by word.
+def _reworded_answer(answerer: "_Answerer", text: str) -> InterpretedAnswer:
+    """Return the answer to a question that was translated word by word, or whose spelling was corrected.
 
     Raises:
-        GraphError: the English words are not understood, or mean nothing in the scene: others may be meant.
+        GraphError: the words are not understood, or mean nothing in the scene: others may be meant.
     """
     try:
-        found = answerer.answer(english)
+        found = answerer.answer(text)
     except GraphError as error:
-        raise GraphError(f"read as “{english}”: {error}") from error
+        raise GraphError(f"read as “{text}”: {error}") from error
     if found.verdict is None and not (found.answer.rows or found.number):
-        raise GraphError(f"read as “{english}”: {found.sentence}")
-    return found.with_notes([f"read as “{english}”"])
+        raise GraphError(f"read as “{text}”: {found.sentence}")
+    return found.with_notes([f"read as “{text}”"])
 
 
 class _Answerer:

@@ -2,7 +2,7 @@
 
 from usd2kg.grounding.base import Grounder
 from usd2kg.grounding.cascade import CascadeGrounder
-from usd2kg.grounding.concepts import apply_decisions, concepts_named, hypernyms_of
+from usd2kg.grounding.concepts import apply_decisions, concepts_named, hypernyms_of, is_english_word
 from usd2kg.grounding.context import (
     ABBREVIATED_LENGTH,
     EVIDENCE_GROUPS,
@@ -56,6 +56,7 @@ __all__ = [
     "format_queue",
     "ground",
     "hypernyms_of",
+    "is_english_word",
     "is_llm_name",
     "make_grounder",
     "parse_evidence",

@@ -10,7 +10,7 @@ from usd2kg.grounding.registry import make_grounder
 from usd2kg.ontology import ClassIRI, TBox
 from usd2kg.scene import Scene
 
-__all__ = ["add_concepts", "apply_decisions", "concepts_named", "hypernyms_of"]
+__all__ = ["add_concepts", "apply_decisions", "concepts_named", "hypernyms_of", "is_english_word"]
 
 
 def add_concepts(
@@ -74,6 +74,13 @@ def hypernyms_of(noun: str) -> frozenset[str]:
 
     described = recognition.describe_concepts(recognition.concepts_of_noun(noun)[:1])
     return frozenset(concept.label for concept in described.values())
+
+
+def is_english_word(word: str) -> bool:
+    """Return whether a lower-case word of five letters or more is English, whatever its part of speech."""
+    from usd2kg.grounding.lexical.reading import english_words  # noqa: PLC0415
+
+    return english_words.is_english_word(word)
 
 
 def _classes_by_words(

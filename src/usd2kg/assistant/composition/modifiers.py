@@ -281,6 +281,10 @@ class Modifiers:
         end = self._words.after(at, {"made of", "made from", "made out of", "of", "in"})
         if end > at and is_material(self._word(end)):
             yield self._filters.like(self._word(end)), end + 1
+        if end > at and is_material(self._word(end + 1)) and not is_function_word(self._word(end)):
+            # Cast iron, stainless steel.
+            note = f"“{self._words.text(end, end + 2)}” was read as “{self._word(end + 1)}”"
+            yield self._filters.like(self._word(end + 1))._replace(guesses=(note,), cost=1), end + 2
 
     def adjective(self, at: int) -> FilterParses:
         """Parse an adjective that stands alone: red, wooden, empty."""

@@ -39,7 +39,7 @@ class Spelling:
         for word in unknown or words:
             similar = process.extract(
                 word,
-                self._vocabulary,
+                self.vocabulary,
                 scorer=fuzz.ratio,
                 score_cutoff=WORDS.min_similarity,
                 limit=LOOKUP.max_suggestions,
@@ -55,10 +55,10 @@ class Spelling:
 
     @cached_property
     def _words_in_use(self) -> frozenset[str]:
-        return frozenset(stem for word in self._vocabulary for stem in noun_words(word))
+        return frozenset(stem for word in self.vocabulary for stem in noun_words(word))
 
     @cached_property
-    def _vocabulary(self) -> list[str]:
+    def vocabulary(self) -> list[str]:
         """The words of names, classes and concepts of the graph."""
         labels = (label for _, label in self._kinds.names)
         words = {*self._facts.columns.words, *(word.lower() for label in labels for word in split_identifier(label))}

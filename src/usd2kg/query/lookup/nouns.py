@@ -430,6 +430,11 @@ class Nouns(PlaceNouns):
             else f"{shown!r} is not a word that this graph or the lexicon knows"
         )
 
+    @property
+    def vocabulary(self) -> Sequence[str]:
+        """The words of the names, classes and concepts of the graph."""
+        return self._spelling.vocabulary
+
     def knows(self, word: str) -> bool:
         """Return whether a word of a noun phrase is in the lexicon or in a name of the graph, as it is written."""
         return restricts(word) or self._is_known(word) or self._spelling.is_in_use(word)
