@@ -54,3 +54,50 @@ def test_people_say_electrical_appliance_for_an_appliance(kitchen: GraphStore):
 
 def test_a_listed_compound_may_contain_an_ordinal(kitchen: GraphStore):
     assert ask_offline(kitchen, "is there a first aid kit in the fridge?").verdict is False
+
+
+def test_drinks_and_food_are_in_their_packaging(kitchen: GraphStore):
+    drinks = labels(kitchen, "what drinks are there?")
+    assert {"milkCarton_1", "orangeJuice", "water_btl_02", "WnBttl_1"} <= set(drinks)
+    assert {"flourBag", "can_tomato_1"} <= set(labels(kitchen, "What food is on the pantry shelf?"))
+
+
+@pytest.mark.parametrize(
+    "question", ["what is on the ledge of the sideboard?", "what is lying on the sideboard's ledge?"]
+)
+def test_a_part_that_is_no_object_is_its_whole(kitchen: GraphStore, question: str):
+    found = ask_offline(kitchen, question)
+    assert {"birdCage", "cakeStand"} <= {row[0] for row in found.answer.rows}
+    assert "was read as “sideboard”" in found.sentence
+
+
+@pytest.mark.parametrize(
+    "question", ["By how many degrees can the fridge door swing open?", "how far does the fridge open?"]
+)
+def test_doors_turn_by_degrees(kitchen: GraphStore, question: str):
+    assert ask_offline(kitchen, question).number == 100
+
+
+def test_what_has_no_joint_opens_by_its_kind(kitchen: GraphStore):
+    assert ask_offline(kitchen, "can I open the dishwasher?").verdict is True
+    assert {"dishWasher", "drwr_L1", "Fridge_01"} <= set(labels(kitchen, "what can I open here?"))
+
+
+def test_empty_is_said_of_the_thing_that_is_meant(kitchen: GraphStore):
+    assert ask_offline(kitchen, "Is the oven empty?").verdict is False
+
+
+def test_what_is_put_somewhere_may_be_absent(kitchen: GraphStore):
+    assert ask_offline(kitchen, "where could I put a vase of flowers down?").places
+    assert "of usual size" in ask_offline(kitchen, "where can I put a laptop?").sentence
+    with pytest.raises(GraphError):
+        ask_offline(kitchen, "where can I put the laptop?")
+
+
+@pytest.mark.parametrize("question", ["With what could I sweep the floor?", "anything I can sweep the floor with?"])
+def test_tools_for_a_purpose(kitchen: GraphStore, question: str):
+    assert labels(kitchen, question) == ["broom"]
+
+
+def test_a_name_in_parentheses_is_that_of_the_noun(kitchen: GraphStore):
+    assert labels(kitchen, "what is in the fridge (Fridge_01)?") == labels(kitchen, "what is in the fridge?")

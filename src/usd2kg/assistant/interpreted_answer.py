@@ -20,7 +20,7 @@ class InterpretedAnswer(RichDisplay):
     verdict: bool | None = None
     """Answer to a yes/no question; None for other questions."""
     number: float | None = None
-    """Answer to "how many", "how tall" and the like, in metres or kilograms; None for other questions."""
+    """Answer to "how many", "how tall" and the like, in metres, kilograms or degrees; None for other questions."""
     sentence: str = ""
     """The answer in English; empty if the table is all."""
     places: tuple[str, ...] = ()

@@ -9,6 +9,7 @@ from usd2kg.assistant.free_places import find_free_places
 from usd2kg.assistant.interpreted_answer import InterpretedAnswer
 from usd2kg.assistant.sentences import begin_sentence, join_few, join_words, name_things, yes_or_no
 from usd2kg.assistant.settings import PLACING
+from usd2kg.assistant.usual_sizes import usual_size
 from usd2kg.errors import GraphError
 from usd2kg.grounding import concepts_named
 from usd2kg.knowledge import word_map, word_set
@@ -210,6 +211,9 @@ class MeasureAnswers(Answers):
         things, facts = self._nouns.find(thing), self._facts
         sizes = [facts.body(iri) for iri in things.iris]
         body = next((one for one in sizes if one.lower is not None), None)
+        is_definite = thing.split(maxsplit=1)[0].lower() in word_set("grammar", "definite")
+        if not (things.iris or is_definite) and (usual := usual_size(things.text)) is not None:
+            return self._free_tops(f"{things.text} of usual size", usual, ())
         if body is None or body.lower is None or body.upper is None:
             raise GraphError(f"not known: the graph has no box for {things.text}, so its size is unknown")
         width, depth, height = (float(side) for side in body.upper - body.lower)

@@ -36,7 +36,7 @@ class OpeningAnswers(Answers):
 
     def _to_open(self, thing: str, other: str = "") -> InterpretedAnswer:
         """Return what is in the way of a thing that opens: by its joint, else by the boxes in front of it."""
-        things = self._nouns.existing(thing)
+        things = self._existing_or_whole(thing)
         carried = self._nouns.around("on", other, is_direct=False) if other else None
         found = join_answers([self._graph.answer("to-open", {"thing": self._facts.path(iri)}) for iri in things.iris])
         if found.rows or not self._facts.opened_by_joint.isdisjoint(things.iris):
@@ -56,6 +56,15 @@ class OpeningAnswers(Answers):
         return InterpretedAnswer(
             f"what is in the way of {things.text}", self._things.located(chosen), sentence=sentence
         )
+
+    def _existing_or_whole(self, thing: str) -> Things:
+        """Return the objects that are meant, or the whole of a part that is no object: the fridge, for its door."""
+        try:
+            return self._nouns.existing(thing)
+        except GraphError:
+            if (whole := self._nouns.whole_of(thing)) is None:
+                raise
+            return whole
 
     def _obstructed(self, things: Things, other: str, named: str, count: int, reason: str) -> str:
         """Return the sentence about what is in the way, of all things or of those on another."""
@@ -81,21 +90,30 @@ class OpeningAnswers(Answers):
 
     def _joints(self, thing: str) -> InterpretedAnswer:
         """Return the joints of things, and how far each of them moves."""
-        things = self._nouns.existing(thing)
+        things = self._existing_or_whole(thing)
         found = join_answers([self._graph.answer("joints", {"thing": self._facts.path(iri)}) for iri in things.iris])
         rows = [dict(zip(found.columns, values, strict=True)) for values in found.values]
         parts = [
-            f"{row['moves'] or row['joint']} {self._motion(str(row['type']), row['range'])}"
+            f"{row['moves'] or row['joint']} {self._motion(self._turns(row), row['range'])}"
             for row in {row["joint"]: row for row in rows}.values()
         ]
         if not parts:
             raise GraphError(f"not known: the stage has no joint for {things.text}, so how it opens is unknown")
         sentence = f"{join_few(parts)}{things.suffix}."
-        return InterpretedAnswer(f"joints of {things.text}, and how far they open", found, sentence=sentence)
+        turns = {
+            round(math.degrees(span)) for row in rows if self._turns(row) and isinstance(span := row["range"], float)
+        }
+        number = float(turns.pop()) if len(turns) == 1 and all(map(self._turns, rows)) else None
+        return InterpretedAnswer(
+            f"joints of {things.text}, and how far they open", found, number=number, sentence=sentence
+        )
 
-    def _motion(self, kind: str, span: object) -> str:
+    def _turns(self, row: Mapping[str, object]) -> bool:
+        return any(kind in str(row["type"]) for kind in ("Revolute", "Hinge"))
+
+    def _motion(self, turns: bool, span: object) -> str:
         """Return how a joint moves: radians for revolute joints, metres for prismatic ones."""
-        verb = "turns" if "Revolute" in kind or "Hinge" in kind else "slides"
+        verb = "turns" if turns else "slides"
         if not isinstance(span, float):
             return f"{verb} without stated limits"
         return f"{verb} by {math.degrees(span):.0f}°" if verb == "turns" else f"{verb} by {self._text(span, 'm')}"

@@ -132,6 +132,10 @@ class Modifiers:
                 yield self._filters.of_area(area), end
             else:
                 yield self._filters.related(relation, group, is_direct=is_direct, is_all=is_all), end
+            if not group.noun.iris and " of " in text and (whole := self._nouns.whole_of(text)) is not None:
+                # On the ledge of the whiteboard, which is no object of its own.
+                meant = Group(whole, text, guesses=(whole.note,), cost=group.cost)
+                yield self._filters.related(relation, meant, is_direct=is_direct, is_all=is_all), end
         yield from self._areas(relation, at)
 
     def _area(self, group: Group) -> set[str]:

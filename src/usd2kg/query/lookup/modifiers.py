@@ -127,9 +127,10 @@ class PhraseModifiers:
 
     def find_for_purpose(self, verb: str) -> Things | None:
         """Return the things that an activity needs, or whose kind names it: sports equipment; None if unknown."""
-        # Cut bread: the verb says what is needed.
-        verb = verb.split(maxsplit=1)[0]
-        for noun in filter(None, word_map("query", "activity_things").get(verb.lower(), "").split("/")):
+        # Cut bread: the verb says what is needed, or the verb with its particle: put out a fire.
+        phrasal, needs = " ".join(verb.split()[:2]).lower(), word_map("query", "activity_things")
+        verb = phrasal if phrasal in needs else verb.split(maxsplit=1)[0]
+        for noun in filter(None, needs.get(verb.lower(), "").split("/")):
             needed = self._find(noun)
             if needed is not None and needed.iris:
                 return Things(needed.iris, f"things to {verb.lower()}")

@@ -25,6 +25,7 @@ from usd2kg.query.lookup.things import Things, UnknownWordError
 from usd2kg.query.lookup.word_forms import (
     is_noun,
     is_plural,
+    noun_words,
     singular,
     split_phrase,
 )
@@ -193,9 +194,13 @@ class Nouns(PlaceNouns):
     def _of_this_name(self, text: str, found: Things) -> Things:
         """Return the only things of several that are named by a definite singular noun: the computer, among tablets."""
         noun = found.text
-        if not text.lower().startswith("the ") or len(found.iris) < 2 or is_plural(noun) or " " in noun:
+        if not text.lower().startswith("the ") or len(found.iris) < 2 or is_plural(noun):
             return found
-        exact = tuple(iri for iri in found.iris if self._facts.kind(iri) == noun)
+        if " " in noun:
+            # The family photo, among picture frames: the one whose name has both words.
+            exact = tuple(iri for iri in found.iris if noun_words(noun) <= noun_words(self._facts.label(iri)))
+        else:
+            exact = tuple(iri for iri in found.iris if self._facts.kind(iri) == noun)
         if not exact or len(exact) == len(found.iris):
             return found
         self.guesses.append(f"“{text}” was read as {len(exact)} of {len(found.iris)} things that may be meant")
@@ -223,6 +228,10 @@ class Nouns(PlaceNouns):
         if not things.iris:
             raise GraphError(things.absence)
         return things
+
+    def whole_of(self, text: str) -> Things | None:
+        """Return the whole of a part that the graph does not have as an object; None if the words name no part."""
+        return self._parts.read_whole(text)
 
     def _find(self, text: str) -> Things | None:
         """Return what a phrase means as it is written; None if a word is unknown."""
@@ -320,14 +329,6 @@ class Nouns(PlaceNouns):
         """Return the things that are known to be of a kind, by prim path."""
         found = self._find(noun)
         return () if found is None else found.iris
-
-    def is_everything(self, text: str) -> bool:
-        """Return whether a noun means any thing."""
-        return " ".join(split_phrase(text)) in _EVERYTHING
-
-    def is_floor(self, text: str) -> bool:
-        """Return whether a noun means what heights are measured from."""
-        return " ".join(split_phrase(text)) in _FLOORS
 
     @cached_property
     def floors(self) -> set[str]:

@@ -2,6 +2,7 @@
 
 import re
 from collections.abc import Callable, Sequence
+from dataclasses import replace
 
 from usd2kg.query.lookup.facts import SceneFacts
 from usd2kg.query.lookup.kinds import Kinds
@@ -9,7 +10,7 @@ from usd2kg.query.lookup.names import NameMatcher
 from usd2kg.query.lookup.prepositions import RELATION_OF
 from usd2kg.query.lookup.related_things import find_parts
 from usd2kg.query.lookup.things import Things
-from usd2kg.query.lookup.word_forms import split_phrase
+from usd2kg.query.lookup.word_forms import is_noun, split_phrase
 
 __all__ = ["PartPhrases"]
 
@@ -67,6 +68,17 @@ class PartPhrases:
             if found is not None and found.iris:
                 return found
         return None
+
+    def read_whole(self, text: str) -> Things | None:
+        """Return the whole of a part that the graph does not have as an object: the fridge, for its door."""
+        words = split_phrase(text)
+        part, _, whole = " ".join(words).partition(" of ")
+        if not whole:
+            part, whole = words[-1], " ".join(words[:-1])
+        found = self._find(" ".join(split_phrase(whole))) if whole and is_noun(part) else None
+        if found is None or not found.iris:
+            return None
+        return replace(found, note=f"“{' '.join(words)}” was read as “{found.text}”")
 
     def are_parts(self, things: Things) -> bool:
         """Return whether there are things, and all are parts of others."""

@@ -12,6 +12,8 @@ from usd2kg.query.lookup.word_forms import noun_words, split_phrase
 
 __all__ = ["PlaceNouns"]
 
+_EVERYTHING = word_set("query", "general_nouns")
+_FLOORS = word_set("query", "floors")
 _ROOM_NOUNS = word_set("query", "room_nouns")
 _WHOLE_PLACES = word_set("query", "whole_places")
 _PLACE_KINDS = word_set("query", "place_kinds")
@@ -24,6 +26,14 @@ class PlaceNouns:
         self._facts = facts
         self._kinds = Kinds(facts)
         self._names = NameMatcher(facts, self._kinds)
+
+    def is_everything(self, text: str) -> bool:
+        """Return whether a noun means any thing."""
+        return " ".join(split_phrase(text)) in _EVERYTHING
+
+    def is_floor(self, text: str) -> bool:
+        """Return whether a noun means what heights are measured from."""
+        return " ".join(split_phrase(text)) in _FLOORS
 
     def of_kind(self, noun: str) -> set[str]:
         """Return the objects of the kind that a noun names, whatever their names are."""

@@ -1,7 +1,9 @@
-"""find_copies: objects without a concept that have class and size of objects with one."""
+"""find_copies: objects without the concept of a thing that have class and size of objects with one."""
 
 from collections.abc import Set
+from functools import cache
 
+from usd2kg.grounding import hypernyms_of
 from usd2kg.query.lookup.facts import SceneFacts
 
 __all__ = ["find_copies"]
@@ -21,15 +23,27 @@ def find_copies(facts: SceneFacts, members: Set[str]) -> set[str]:
         facts: the graph.
         members: objects with a concept.
     """
-    unnamed = [iri for iri in facts.things if facts.concept(iri) is None]
+    unnamed = [iri for iri in facts.things if _is_unnamed(facts, iri)]
     if not unnamed or not members:
         return set()
     looks = {look for iri in members if (look := _look(facts, iri)) is not None}
     found = {iri: look for iri in unnamed if (look := _look(facts, iri)) in looks}
     if found:
-        others = (iri for iri in facts.things if iri not in members and facts.concept(iri) is not None)
+        others = (iri for iri in facts.things if iri not in members and not _is_unnamed(facts, iri))
         looks -= {look for iri in others if (look := _look(facts, iri)) is not None}
     return {iri for iri, look in found.items() if look in looks}
+
+
+def _is_unnamed(facts: SceneFacts, iri: str) -> bool:
+    """Return whether an object has no concept, or one that is no thing: `mon_L` is not the language Mon."""
+    concept = facts.concept(iri)
+    return concept is None or _is_abstract(facts.label_of(concept))
+
+
+@cache
+def _is_abstract(noun: str) -> bool:
+    above = hypernyms_of(noun)
+    return "abstraction" in above and "physical entity" not in above
 
 
 def _look(facts: SceneFacts, iri: str) -> _Look | None:
