@@ -129,3 +129,36 @@ def test_answers_contradict_each_other():
 )
 def test_a_list_says_what_was_asked_of_the_things(kitchen: GraphStore, question: str, expected: str):
     assert ask_offline(kitchen, question).sentence == expected
+
+
+def test_the_two_are_no_more_than_two(kitchen: GraphStore):
+    with pytest.raises(GraphError, match="not known which 2 chairs"):
+        ask_offline(kitchen, "Do the two chairs stand on the floor?")
+
+
+@pytest.mark.parametrize(
+    ("question", "expected"),
+    [
+        ("Do the two windows hang on the same wall?", False),
+        ("Is a television among the appliances?", False),
+        ("Got a toaster here?", True),
+    ],
+)
+def test_short_and_joint_claims(kitchen: GraphStore, question: str, expected: bool):
+    assert ask_offline(kitchen, question).verdict is expected
+
+
+@pytest.mark.parametrize(
+    ("question", "plain"),
+    [
+        ("Kids ask where the kettle is", "where is the kettle?"),
+        ("Guard here. Where is the toaster?", "where is the toaster?"),
+        ("whereabouts is the toaster?", "where is the toaster?"),
+        ("What can be found in the fridge?", "what is in the fridge?"),
+        ("What is lying about on the sideboard?", "what is on the sideboard?"),
+        ("Which is farther from the fridge, the oven or the toaster?", "the toaster"),
+        ("How many drawers has baseUnit_L?", "how many drawers does baseUnit_L have?"),
+    ],
+)
+def test_other_shapes_of_a_question(kitchen: GraphStore, question: str, plain: str):
+    assert ask_offline(kitchen, question).paths == ask_offline(kitchen, plain).paths

@@ -180,10 +180,9 @@ class ComposedAnswers:
             )
         yes = quantity.holds(len(kept), len(subjects))
         named = join_few([self._facts.label(iri) for iri in kept or subjects])
-        share = f"{len(kept)} of {count_phrase(len(subjects), singular(group.text))}"
-        return InterpretedAnswer(
-            f"whether {group.text} are so", self._facts.table(kept), yes, sentence=yes_or_no(yes, f"{share} ({named}).")
-        )
+        share = f"{len(kept)} of {count_phrase(len(subjects), singular(group.text))} ({named})"
+        sentence = yes_or_no(yes, f"{share if subjects else group.things.absence}.")
+        return InterpretedAnswer(f"whether {group.text} are so", self._facts.table(kept), yes, sentence=sentence)
 
     def _more(self, reading: Reading) -> InterpretedAnswer:
         first, second = reading.groups

@@ -309,6 +309,30 @@ class Filters:
 
         return Filter(choose, (*places.guesses, *others.guesses), places.cost + others.cost)
 
+    def together(self, relation: str, places: Group) -> Filter:
+        """Choose all things if one place has them all; else none: on the same wall."""
+
+        def choose(iris: Sequence[str]) -> Collection[str]:
+            names = ("on", "attached") if relation == "on" else (relation,)
+            held = [
+                {one for name in names for one in self._in_relation(name, [place], iris)} for place in places.existing()
+            ]
+            if not any(held):
+                raise GraphError(f"not known: no {places.text} is known to have any of these things")
+            return iris if any(found.issuperset(iris) for found in held) else []
+
+        return Filter(choose, places.guesses, places.cost)
+
+    def counted(self, text: str, count: int) -> Filter:
+        """Choose all things, which are as many as a question takes for granted: the two cups."""
+
+        def choose(iris: Sequence[str]) -> Collection[str]:
+            if len(iris) != count:
+                raise GraphError(f"not known which {count} {text} are meant, of {len(iris)}")
+            return iris
+
+        return Filter(choose)
+
     def part_of(self, wholes: Group) -> Filter:
         """Choose the parts of things."""
         return Filter(lambda iris: find_parts(self._facts, wholes.existing()) & set(iris), wholes.guesses, wholes.cost)

@@ -115,6 +115,9 @@ class Modifiers:
             yield from self._within(at, limit)
 
     def _place_in(self, relation: str, at: int, *, is_direct: bool, is_all: bool) -> FilterParses:
+        if self._word(at) == "top" and relation == "on":
+            # A hat on top is on what has it, not on a thing with that name.
+            return
         if (same := self._same(at)) is not None:
             yield from self._same_place(relation, same)
         for group, end in self._phrases.parse(at):
@@ -165,6 +168,9 @@ class Modifiers:
 
     def _same_place(self, relation: str, at: int) -> FilterParses:
         for places, end in self._phrases.joined(at):
+            if self._word(end) not in {"as", "like"}:
+                # They hang on the same wall.
+                yield self._filters.together(relation, places), end
             for other, after in self._phrases.parse(end + 1) if self._word(end) in {"as", "like"} else ():
                 yield self._filters.same_place(relation, places, other), after
 

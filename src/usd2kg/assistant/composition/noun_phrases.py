@@ -47,6 +47,8 @@ class _Determiner(NamedTuple):
     quantity: Quantity | None
     is_definite: bool
     end: int
+    stated: int | None = None
+    """How many there are, as the words take for granted: the two cups."""
 
 
 class NounPhrases:
@@ -75,6 +77,8 @@ class NounPhrases:
         for determiner in self._determiners(at):
             for group, end in self._measured(determiner.end, at):
                 meant = group if determiner.quantity is None else replace(group, quantity=determiner.quantity)
+                if determiner.stated is not None:
+                    meant = meant.keep(self._filters.counted(meant.text, determiner.stated), meant.text)
                 yield replace(meant, is_definite=determiner.is_definite or group.is_definite), end
 
     def _determiners(self, at: int) -> Iterator[_Determiner]:
@@ -91,7 +95,8 @@ class NounPhrases:
         number = read_number(self._word(end)) if self._words.superlative(end) is None else None
         if number is not None and is_definite and quantity in {None, EACH}:
             # The two cups are all of them.
-            quantity, end = EACH, end + 1
+            yield _Determiner(EACH, is_definite, end + 1, number)
+            return
         elif number is not None and quantity == ANY and self._word(at) in {"some", "any"}:
             quantity, end = Quantity(number), end + 1
         yield _Determiner(quantity, is_definite, end)

@@ -117,6 +117,9 @@ class Predicates:
         yield from self._best(at)
         if self._word(at) in _HOLDING:
             yield from self.verb(at)
+        if self._word(at) in {"among", "amongst"}:
+            for group, end in self._phrases.parse(at + 1):
+                yield self._filters.of_kind(group), end
         start = self._words.after(at, _PART_OF)
         if start > at:
             for group, end in self._phrases.parse(start):

@@ -118,10 +118,14 @@ class Questions:
                 yield from self._there(group, end + 2, "list")
             if group.is_general and self._word(end) in BE and self._word(end + 1) == "there":
                 yield from self._there(group, end + 2, "list")
-            for one, last in self._predicates.parse(end):
+            for one, last in self._predicates.parse(end) if self._agrees(group, end) else ():
                 if self._done(last):
                     yield self._restricted("list", group, one, end)
             yield from self._inverted(group, end, "list")
+
+    def _agrees(self, group: Group, at: int) -> bool:
+        """Return whether the verb at a place may have a group as its subject: not in “how many drawers has it”."""
+        return not (group.is_plural and not group.is_general and self._word(at) == "has")
 
     def _there(self, group: Group, at: int, kind: str) -> Iterator[Reading]:
         """Yield readings after `which cups are there`: with a place, or nothing."""
@@ -145,6 +149,9 @@ class Questions:
         verb = self._word(at)
         if verb in DO | _HAVING | _MODALS:
             for subject, end in self._phrases.parse(at + 1):
+                if not self._agrees(group, at) and self._done(end):
+                    # How many drawers has the cabinet?
+                    yield Reading(kind, (group.keep(self._owned_by(subject), self._named(group)),))
                 if self._word(end) in _HOLDING or (self._word(end) == "got" and verb in _HAVING):
                     _, last = self._modifiers.back(end + 1)
                     if self._done(last):
@@ -234,7 +241,7 @@ class Questions:
                 yield from self._there(group, end + 2, "count")
             if self._word(end) == "there" and self._word(end + 1) in BE:
                 yield from self._there(group, end + 2, "count")
-            for one, last in self._predicates.parse(end):
+            for one, last in self._predicates.parse(end) if self._agrees(group, end) else ():
                 if self._done(last):
                     yield self._restricted("count", group, one, end)
             yield from self._inverted(group, end, "count")
@@ -398,11 +405,25 @@ class Questions:
                 if self._word(end) == "made" and self._word(self._end - 1) == "of" and end + 2 == self._end:
                     yield Reading("material", (group,))
 
+    def _nearer(self, at: int) -> Iterator[Reading]:
+        """Yield choices by distance: (which is) farther from the wardrobe, the armchair or the sofa."""
+        signs = {"closer": 1, "nearer": 1, "farther": -1, "further": -1}
+        if self._word(at) not in signs or self._word(at + 1) not in {"to", "from"}:
+            return
+        for other, end in self._phrases.parse(at + 2):
+            for choice, last in self._phrases.parse(end + (self._word(end) == ",")):
+                if self._done(last) and choice.is_joined:
+                    yield Reading(
+                        "list", (choice.keep(self._filters.nearest(other, signs[self._word(at)]), choice.text),)
+                    )
+
     def _choose(self) -> Iterator[Reading]:
         """Yield choices between two: which is heavier, the oven or the fridge."""
         if self._word(0) not in _WHICH | {"who"}:
             return
         start = 1 + (self._word(1) in {"one", "thing"})
+        if self._word(start) in BE:
+            yield from self._nearer(start + 1)
         adjective, end = "", start
         if self._word(start) in BE:
             end = start + 1 + (self._word(start + 1) == "the")
