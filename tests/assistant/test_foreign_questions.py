@@ -51,3 +51,7 @@ def test_the_answer_says_how_the_question_was_read(kitchen: GraphStore):
 def test_nothing_follows_from_a_translation(kitchen: GraphStore):
     with pytest.raises(GraphError, match="read as “which pianos are on the table”"):
         ask_offline(kitchen, "Quali pianoforti sono sul tavolo?")
+
+
+def test_a_place_is_not_left_out(kitchen: GraphStore):
+    assert ask_offline(kitchen, "Combien de pommes y a-t-il dans le frigo ?").number != 4

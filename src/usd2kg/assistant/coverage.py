@@ -10,7 +10,7 @@ from usd2kg.assistant.sentences import join_words
 from usd2kg.knowledge import word_set
 from usd2kg.query.lookup import UnknownWordError
 
-__all__ = ["check_left", "check_nothing", "check_requests", "is_topic", "leaves_out", "tells_more", "with_notes"]
+__all__ = ["check_left", "check_nothing", "check_requests", "is_partial", "is_topic", "leaves_out", "tells_more", "with_notes"]
 
 _CONDITIONS = word_set("query", "negations") | word_set("assistant", "conditions")
 _EMBEDDED = re.compile(r"\b(know|see|check|sure|wonder|tell|ask) (me )?(if|whether)\b", re.IGNORECASE)
@@ -21,6 +21,8 @@ _REQUEST = re.compile(
 """Begins a question of its own."""
 _EMPTY_WORDS = word_set("assistant", "fillers") | word_set("query", "determiners")
 _OTHER_TIMES = word_set("assistant", "other_times")
+_LEFT_OUT = "Not taken into account"
+"""Begins what an answer says about words that it leaves out."""
 _ABOUT_TIME = frozenset(["changed"])
 """Question types that compare the scene with an older version."""
 
@@ -100,13 +102,18 @@ def with_notes(found: InterpretedAnswer, phrase: Phrase, text: str, read_as: Seq
     """
     left = _parts_with_content(phrase)
     found = found.with_notes(read_as)
-    said = [f"Not taken into account: {join_words([f'“{part}”' for part in left])}."] if left else []
+    said = [f"{_LEFT_OUT}: {join_words([f'“{part}”' for part in left])}."] if left else []
     if phrase.question not in _ABOUT_TIME and not _OTHER_TIMES.isdisjoint(_words(text)):
         said.append("The answer is about the scene as it is, not about another time.")
     return found.with_sentence(" ".join(filter(None, [found.sentence, *said]))) if said else found
 
 
-_SAYS = re.compile(r"was read as|Not taken into account")
+_SAYS = re.compile(rf"was read as|{_LEFT_OUT}")
+
+
+def is_partial(found: InterpretedAnswer) -> bool:
+    """Return whether an answer leaves out words of its question, which it says."""
+    return _LEFT_OUT in found.sentence
 
 
 def tells_more(one: InterpretedAnswer, other: InterpretedAnswer) -> bool:

@@ -12,6 +12,7 @@ from usd2kg.assistant.coverage import (
     check_left,
     check_nothing,
     check_requests,
+    is_partial,
     is_topic,
     leaves_out,
     tells_more,
@@ -99,6 +100,10 @@ def ask_offline(graph: GraphStore, text: str, since: Path | None = None) -> Inte
         if (other := in_english(asked) or respelled(asked, Nouns(graph.facts))) is None:
             raise
         answer = _reworded_answer(_Answerer(graph, True, units, since), other)
+    else:
+        if is_partial(answer) and (other := in_english(asked)) is not None:
+            # A pattern of another language leaves out where to count: ¿Cuántas tazas hay en la mesa?
+            answer = _reworded_answer(_Answerer(graph, True, units, since), other)
     units.check(answer.sentence)
     return answer
 
