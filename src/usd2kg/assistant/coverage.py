@@ -10,7 +10,16 @@ from usd2kg.assistant.sentences import join_words
 from usd2kg.knowledge import word_set
 from usd2kg.query.lookup import UnknownWordError
 
-__all__ = ["check_left", "check_nothing", "check_requests", "is_partial", "is_topic", "leaves_out", "tells_more", "with_notes"]
+__all__ = [
+    "check_left",
+    "check_nothing",
+    "check_requests",
+    "is_partial",
+    "is_topic",
+    "leaves_out",
+    "tells_more",
+    "with_notes",
+]
 
 _CONDITIONS = word_set("query", "negations") | word_set("assistant", "conditions")
 _EMBEDDED = re.compile(r"\b(know|see|check|sure|wonder|tell|ask) (me )?(if|whether)\b", re.IGNORECASE)

@@ -1,6 +1,7 @@
 """Kinds: the classes and concepts that a noun names, and their objects."""
 
 import re
+from collections import defaultdict
 from collections.abc import Iterable
 from functools import cached_property
 
@@ -20,6 +21,24 @@ __all__ = ["Kinds"]
 _INTERCHANGEABLE = word_map("query", "interchangeable")
 _CLASSES = "SELECT DISTINCT ?c ?l WHERE { ?c a owl:Class . OPTIONAL { ?c rdfs:label ?l } }"
 _CONCEPTS = "SELECT DISTINCT ?c ?l WHERE { ?c a skos:Concept . OPTIONAL { ?c skos:prefLabel ?l } }"
+
+
+class _Index:
+    """Classes or concepts by the words of their names, and by IRIs that stand for them."""
+
+    def __init__(self) -> None:
+        self._by_words: defaultdict[frozenset[str], list[ox.NamedNode]] = defaultdict(list)
+        self._by_iri: defaultdict[str, list[ox.NamedNode]] = defaultdict(list)
+
+    def add(self, node: ox.NamedNode, names: Iterable[str], iris: Iterable[str]) -> None:
+        for words in {name_words(name) for name in names} - {frozenset()}:
+            self._by_words[words].append(node)
+        for iri in iris:
+            self._by_iri[iri].append(node)
+
+    def find(self, words: frozenset[str], iris: Iterable[str]) -> list[ox.NamedNode]:
+        found = [node for iri in iris for node in self._by_iri.get(iri, ())]
+        return [*self._by_words.get(words, ()), *found]
 
 
 class Kinds:
@@ -52,16 +71,9 @@ class Kinds:
         return [*self._classes, *self._concepts]
 
     def _classes_named(self, name: str) -> list[ox.NamedNode]:
-        wanted, iris = name_words(name), {name, expand_curie(name)}
-        meant = {concept for one in self._names(name)[1:] for concept in concepts_named(one)[:1]}
-        return [
-            node
-            for node, label in self._classes
-            if node.value in iris
-            or (wanted and wanted in (name_words(label), name_words(re.split(r"[#/]", node.value)[-1])))
-            # A class with another name for it: the trash container is the waste container.
-            or (label and not meant.isdisjoint(concepts_named(label)[:1]))
-        ]
+        meant = (concept for one in self._names(name)[1:] for concept in concepts_named(one)[:1])
+        # A class with another name for it: the trash container is the waste container.
+        return self._class_index.find(name_words(name), {name, expand_curie(name), *meant})
 
     def usual_concepts(self, name: str) -> frozenset[str]:
         """Return the IRIs of the usual concept of a noun and of its near synonym, in the graph or not."""
@@ -78,11 +90,23 @@ class Kinds:
         return [name, *near, *filter(None, whole)]
 
     def _concepts_named(self, name: str) -> list[ox.NamedNode]:
-        wanted = name_words(name)
         iris = {name, expand_curie(name), *(iri for one in self._names(name) for iri in concepts_named(one))}
-        return [
-            node for node, label in self._concepts if node.value in iris or (wanted and name_words(label) == wanted)
-        ]
+        return self._concept_index.find(name_words(name), iris)
+
+    @cached_property
+    def _class_index(self) -> "_Index":
+        index = _Index()
+        for node, label in self._classes:
+            iris = {node.value, *(concepts_named(label)[:1] if label else ())}
+            index.add(node, (label, re.split(r"[#/]", node.value)[-1]), iris)
+        return index
+
+    @cached_property
+    def _concept_index(self) -> "_Index":
+        index = _Index()
+        for node, label in self._concepts:
+            index.add(node, (label,), {node.value})
+        return index
 
     @cached_property
     def _classes(self) -> list[tuple[ox.NamedNode, str]]:

@@ -103,6 +103,7 @@ def noun_words(text: str) -> frozenset[str]:
     return frozenset(singular(word.lower()) for word in split_identifier(text) if not word.isdigit())
 
 
+@lru_cache(maxsize=65536)
 def name_words(text: str) -> frozenset[str]:
     """Return the words of a name in the singular, and its numbers without leading zeros.
 
