@@ -8,7 +8,7 @@ from functools import cached_property
 import pyoxigraph as ox
 
 from usd2kg.graph.vocabulary import RDFS, SKOS
-from usd2kg.grounding import concepts_named
+from usd2kg.grounding import concepts_named, hypernyms_of
 from usd2kg.knowledge import word_map
 from usd2kg.ontology import expand_curie
 from usd2kg.query.lookup.facts import SceneFacts
@@ -58,6 +58,7 @@ class Kinds:
         """
         found = self._facts.members(str(kind.value) for kind in self._below(self.find(name)))
         chosen = {iri for iri, sure in found.items() if sure >= WORDS.min_confidence} or set(found)
+        chosen |= self._of_class_with_other_name(name)
         return chosen | find_copies(self._facts, {iri for iri in chosen if self._facts.concept(iri)})
 
     @cached_property
@@ -71,9 +72,22 @@ class Kinds:
         return [*self._classes, *self._concepts]
 
     def _classes_named(self, name: str) -> list[ox.NamedNode]:
-        meant = (concept for one in self._names(name)[1:] for concept in concepts_named(one)[:1])
-        # A class with another name for it: the trash container is the waste container.
-        return self._class_index.find(name_words(name), {name, expand_curie(name), *meant})
+        found = self._class_index.find(name_words(name), {name, expand_curie(name)})
+        return [*found, *(node for one in _synonyms(name) for node in self._class_index.find(name_words(one), ()))]
+
+    def _of_class_with_other_name(self, name: str) -> set[str]:
+        """Return the objects of a class with another name for a noun: trash containers are waste containers.
+
+        What is known to be another kind of thing is left out: a microwave of the class oven is no stove.
+        """
+        meant = {concept for one in self._names(name)[1:] for concept in concepts_named(one)[:1]}
+        classes = self._class_index.find(frozenset(), meant)
+        members = self._facts.members(str(kind.value) for kind in self._below(classes)) if classes else {}
+        return {iri for iri in members if not self._is_known_thing(iri)}
+
+    def _is_known_thing(self, iri: str) -> bool:
+        concept = self._facts.concept(iri)
+        return concept is not None and "artifact" in hypernyms_of(self._facts.label_of(concept))
 
     def usual_concepts(self, name: str) -> frozenset[str]:
         """Return the IRIs of the usual concept of a noun and of its near synonym, in the graph or not."""
@@ -86,8 +100,7 @@ class Kinds:
         *before, last = name.split() or [name]
         head = singular(last)
         near = [" ".join([*before, noun]) for noun in (head, *_INTERCHANGEABLE.get(head, "").split("/")) if noun]
-        whole = _INTERCHANGEABLE.get(near[0], "").split("/") if before else []
-        return [name, *near, *filter(None, whole)]
+        return [name, *near, *_synonyms(name)]
 
     def _concepts_named(self, name: str) -> list[ox.NamedNode]:
         iris = {name, expand_curie(name), *(iri for one in self._names(name) for iri in concepts_named(one))}
@@ -132,3 +145,9 @@ class Kinds:
                 for predicate in (RDFS.subClassOf, SKOS.broader):
                     waiting += [n for n in self._facts.dataset.subjects(predicate, node) if isinstance(n, ox.NamedNode)]
         return found
+
+
+def _synonyms(name: str) -> list[str]:
+    """Return the nouns that people use for a whole compound: an electrical appliance is an appliance."""
+    *before, last = name.split() or [name]
+    return [*filter(None, _INTERCHANGEABLE.get(" ".join([*before, singular(last)]), "").split("/"))] if before else []
