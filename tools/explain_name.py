@@ -9,6 +9,7 @@ import argparse
 from pathlib import Path
 
 from usd2kg.grounding import ObjectView
+from usd2kg.grounding.lexical.concepts.extent import extent_of
 from usd2kg.grounding.lexical.concepts.sizes import Size
 from usd2kg.grounding.lexical.grounder import LexicalGrounder
 from usd2kg.grounding.lexical.reading.head_noun import head_likelihood
@@ -25,7 +26,7 @@ def explain(name: str, parents: tuple[str, ...], size: Size | None, tbox: TBox) 
         f"words: {' '.join(phrase.words)}",
         *(f"  “{written}” read as “{read}”" for written, read in phrase.corrections),
     ]
-    candidates = matcher.head_candidates(phrase, parents, size)
+    candidates = matcher.head_candidates(phrase, parents, extent_of(size))
     total = sum(head_likelihood(features) for _, features, _ in candidates)
     lines.append("head nouns:")
     for _, features, head in candidates:
@@ -33,7 +34,7 @@ def explain(name: str, parents: tuple[str, ...], size: Size | None, tbox: TBox) 
         lines.append(f"  {head_likelihood(features) / total:.3f}  {' '.join(head.words)}  ({known})")
         lines += [f"           {match.score:.2f}  {match.reason()}" for match in head.matches[:3]]
     lines.append("classes:")
-    for match in matcher.match(phrase, parents, size)[:3]:
+    for match in matcher.match(phrase, parents, extent_of(size))[:3]:
         lines.append(f"  {match.score:.2f}  {tbox.by_iri[match.class_iri].readable_name}: {match.explanation}")
     view = ObjectView(name=name, parents=parents, size=size)
     (scored,) = grounder.score_views([("/", view)], tbox)

@@ -18,6 +18,7 @@ from benchmarks.names.lists import resolve_home_lists
 from tools.fitting import Array, fit_conditional_logit, write_weights
 from usd2kg.grounding import view_objects
 from usd2kg.grounding.lexical.alignment.lexicon import build_lexicon
+from usd2kg.grounding.lexical.concepts.extent import extent_of
 from usd2kg.grounding.lexical.concepts.home_names import home_names
 from usd2kg.grounding.lexical.concepts.sizes import Size
 from usd2kg.grounding.lexical.concepts.taxonomy import load_taxonomy
@@ -109,7 +110,7 @@ def read_ends(
     """Yield the ends of a name by each reader, with its size and without, if there are several and one is right."""
     for reader, known_size in product(readers, (size, None)):
         phrase = reader.names.read(text, parents)
-        candidates = reader.matcher.head_candidates(phrase, parents, known_size)
+        candidates = reader.matcher.head_candidates(phrase, parents, extent_of(known_size))
         found = [(features, head.matches) for _, features, head in candidates]
         best = [max(matches, key=lambda match: match.score).class_iri for _, matches in found]
         right = np.array([iri in accepted for iri in best], dtype=bool)

@@ -15,6 +15,7 @@ from benchmarks.names.lists import LabelledName, iter_ontology_lists, resolve_li
 from tools.fitting import Array, fit_conditional_logit, write_weights
 from usd2kg.grounding.lexical.alignment.lexicon import build_lexicon
 from usd2kg.grounding.lexical.concepts.categories import invert_categories
+from usd2kg.grounding.lexical.concepts.extent import extent_of
 from usd2kg.grounding.lexical.concepts.home_names import home_names
 from usd2kg.grounding.lexical.concepts.taxonomy import load_taxonomy
 from usd2kg.grounding.lexical.matching.kind_ranking import KindFeatures, KindRanker
@@ -77,10 +78,11 @@ def read_names(labelled: Sequence[LabelledName], tbox: TBox) -> Iterator[Name]:
         assert one.obj.box
         parents = tuple(one.obj.prim_path.split("/")[1:-1])
         phrase = reader.read(one.obj.name, parents)
-        matches = matcher.match(phrase, parents, one.obj.box.size)
+        extent = extent_of(one.obj.box.size)
+        matches = matcher.match(phrase, parents, extent)
         if not matches:
             continue
-        heads = matcher.head_shares(phrase, parents, one.obj.box.size)
+        heads = matcher.head_shares(phrase, parents, extent)
         features = np.stack(ranker.features(phrase, parents, heads, ranker.find_kinds(heads), matches), axis=1)
         is_right = np.array([iri == one.target for iri in ranker.classes])
         if is_right.any():

@@ -14,6 +14,7 @@ import numpy as np
 from benchmarks.names.lists import SHARED_ONTOLOGIES, LabelledName, iter_ontology_lists, resolve_list
 from tools.fitting import Array, fit_conditional_logit, write_weights
 from usd2kg.grounding.lexical.alignment.lexicon import build_lexicon
+from usd2kg.grounding.lexical.concepts.extent import extent_of
 from usd2kg.grounding.lexical.concepts.home_names import home_names
 from usd2kg.grounding.lexical.concepts.taxonomy import load_taxonomy
 from usd2kg.grounding.lexical.matching.phrase_matching import PhraseMatcher
@@ -87,7 +88,9 @@ def read_nouns(names: Sequence[LabelledName], tbox: TBox) -> Iterator[Noun]:
     for labelled in names:
         assert labelled.obj.box
         parents = tuple(labelled.obj.prim_path.split("/")[1:-1])
-        read = matcher.head_candidates(reader.read(labelled.obj.name, parents), parents, labelled.obj.box.size)
+        read = matcher.head_candidates(
+            reader.read(labelled.obj.name, parents), parents, extent_of(labelled.obj.box.size)
+        )
         # Inverted names such as `plate_dinner` are looked up as a term.
         ends = [(features, named) for _, features, named in read if not features.inverted]
         if not ends:

@@ -17,7 +17,7 @@ from usd2kg.grounding.lexical.class_posterior import (
     neighbour_weights,
 )
 from usd2kg.grounding.lexical.concepts.places import PLACES, log_stance_likelihoods, place_probabilities, stance_of
-from usd2kg.grounding.lexical.concepts.sizes import Size, size_log_likelihoods
+from usd2kg.grounding.lexical.concepts.sizes import size_log_likelihoods
 from usd2kg.grounding.lexical.matching.head_matching import Match
 from usd2kg.ontology import TBox
 from usd2kg.scene import Box
@@ -26,7 +26,7 @@ ANYWHERE = np.full(len(PLACES), 1 / len(PLACES))
 CLASSES = {"mug": "small", "glass": "small", "refrigerator": "large", "wardrobe": "large", "plate": "flat"}
 
 
-def classify(noun: str, parents: tuple[str, ...], size: Size | None) -> list[Match]:
+def classify(noun: str, parents: tuple[str, ...]) -> list[Match]:
     return [Match(CLASSES[noun], 1, str)] if noun in CLASSES else []
 
 
@@ -104,7 +104,7 @@ def test_the_place_is_given_where_it_is_clear():
 
 def test_an_ontology_without_known_objects_gives_the_general_class():
     abstract = parse_outline("Qualia\n  Zorg")
-    empty = PosteriorModel(match_everyday_nouns(lambda noun, parents, size: []))
+    empty = PosteriorModel(match_everyday_nouns(lambda noun, parents: []))
     look = Appearance((1, 1, 1), 1, 0, False)
     assert empty.posterior(log_likelihoods_of_appearance(look), ANYWHERE).ranked() == {}
     assert local(ground_view(nameless("Kitchen", (0.6, 0.65, 1.8), 0.0), abstract)) == "Qualia"

@@ -13,7 +13,7 @@ from hypothesis import strategies as st
 from tests.grounding.ontologies import load_ontology
 from tests.grounding.records import ground_names, ground_view, local, make_object, make_scene, scene_of
 from usd2kg.grounding import NamingRegime, ObjectView, Prediction, Status, ground, view_objects
-from usd2kg.grounding.lexical.grounder import LexicalGrounder
+from usd2kg.grounding.lexical.grounder import LexicalGrounder, _make_object_grounder
 from usd2kg.ontology import TBox, load_home_tbox
 from usd2kg.scene import Box, SceneObject
 
@@ -308,3 +308,24 @@ def test_repeated_names_are_read_once(home_tbox: TBox):
     # 2,000 objects of four kinds, as in a warehouse; it takes a minute if each is read anew.
     names = [f"{name}_{i}" for name in ("pallet", "shelf", "box_large", "forklift") for i in range(500)]
     assert {local(p) for p in ground_names(names, home_tbox)[1000:1500]} == {"Box"}
+
+
+class TestCopies:
+    NAMES = ("oak_chair", "Stuhl", "coffee_mug", "xqzv", "fan_bld", "Box", "tulip")
+
+    def test_copies_with_clear_words_share_one_result(self, home_tbox: TBox):
+        grounder = LexicalGrounder().object_grounder(home_tbox)
+        paths = [f"/World/Flat_{flat}/Kitchen/oak_chair_{number}" for flat in (20, 30) for number in (4, 5, 66)]
+        scene = make_scene(*(sized(path, (0.5, 0.5, 1.0)) for path in paths))
+        scored = [grounder.predict(view) for _, view in view_objects(scene)]
+        assert len({id(one) for one in scored}) == 1
+
+    def test_copies_get_the_prediction_that_each_gets_alone(self, home_tbox: TBox):
+        paths = [f"/World/Flat_{flat}/Kitchen/{name}_{flat + 7}" for flat in range(3) for name in self.NAMES]
+        scene = make_scene(*(sized(path, (0.5, 0.5, 1.0)) for path in paths))
+        views = [(obj.prim_path, view) for obj, view in view_objects(scene)]
+        together = LexicalGrounder().score_views(views, home_tbox)
+        for view, found in zip(views, together, strict=True):
+            _make_object_grounder.cache_clear()
+            (alone,) = LexicalGrounder().score_views([view], home_tbox)
+            assert alone.prediction == found.prediction

@@ -12,6 +12,7 @@ from tests.grounding.records import LAB, make_class, make_object, make_scene, ma
 from usd2kg.grounding import ground
 from usd2kg.grounding.lexical.alignment.lexicon import build_lexicon
 from usd2kg.grounding.lexical.concepts.categories import find_synset, invert_categories
+from usd2kg.grounding.lexical.concepts.extent import extent_of
 from usd2kg.grounding.lexical.concepts.taxonomy import load_taxonomy
 from usd2kg.grounding.lexical.grounder import LexicalGrounder
 from usd2kg.grounding.lexical.matching.head_matching import Match
@@ -143,7 +144,7 @@ def test_a_name_without_a_class_by_its_head_noun_is_left_to_other_evidence():
 def test_any_name_and_any_names_above_give_finite_features(parents: list[str], name: str):
     ranker, reader = RANKER
     phrase = reader.read(name, tuple(parents))
-    heads = ranker._matcher.head_shares(phrase, tuple(parents), (0.1, 0.2, 0.3))
+    heads = ranker._matcher.head_shares(phrase, tuple(parents), extent_of((0.1, 0.2, 0.3)))
     kinds = ranker.find_kinds(heads)
     found = np.stack(ranker.features(phrase, tuple(parents), heads, kinds, [own_match("Item")]))
     assert np.isfinite(found).all()

@@ -32,7 +32,8 @@ def add_concepts(
     completed = dict(predictions)
     with paused_collection():
         recognizer = load_recognizer()
-        for path, prediction in predictions.items():
+        # Copies come one after the other, so that small caches find their results.
+        for path, prediction in sorted(predictions.items(), key=lambda item: views[item[0]].own_size or ()):
             found = recognizer.recognize(views[path], prediction.words)
             is_decided = prediction.status is Status.REVIEWED
             if found is None or (is_decided and not _agrees(found.concept, named[path], prediction.class_iri, tbox)):

@@ -41,7 +41,8 @@ def weigh_candidates(
         tbox: their ontology.
     """
     shown = view_without_prefix(view, context.shared_prefix(view))
-    sources = chain(chain.from_iterable(words.score_sources(shown)), words.score_abbreviation(shown))
+    by_words = words.score_sources(words.words_of(shown), is_made_for_it=words.is_made_for_stage(shown))
+    sources = chain(chain.from_iterable(by_words), words.score_abbreviation(shown))
     scored = _best_by_group([*sources, *context.score_neighbours(view)])
     appearance = context.score_appearance(view)
 

@@ -19,7 +19,7 @@ from usd2kg.grounding.lexical.concepts.places import (
     noun_priors,
     stance_of,
 )
-from usd2kg.grounding.lexical.concepts.sizes import Size, everyday_nouns, size_log_likelihoods
+from usd2kg.grounding.lexical.concepts.sizes import everyday_nouns, size_log_likelihoods
 from usd2kg.grounding.lexical.matching.head_matching import Match
 from usd2kg.grounding.lexical.settings import PLACE
 from usd2kg.ontology import ClassIRI
@@ -33,8 +33,8 @@ __all__ = [
     "neighbour_weights",
 ]
 
-MatchName = Callable[[str, tuple[str, ...], Size | None], Sequence[Match]]
-"""Returns the matches for a name, the names above it and the extents in metres, best first."""
+MatchName = Callable[[str, tuple[str, ...]], Sequence[Match]]
+"""Returns the matches for a name and the names above it, best first."""
 
 
 class ClassPosterior(NamedTuple):
@@ -74,7 +74,7 @@ def log_likelihoods_of_appearance(seen: Appearance) -> Floats:
 
 def match_everyday_nouns(match: MatchName) -> list[ClassIRI | None]:
     """Return the class that each everyday noun matches best."""
-    matches = (match(noun, (), None) for noun in everyday_nouns())
+    matches = (match(noun, ()) for noun in everyday_nouns())
     return [found[0].class_iri if found else None for found in matches]
 
 

@@ -1,6 +1,7 @@
 """Score classes by the context of an object: its neighbours, its size and stance, and the kind of place it is in."""
 
 from functools import cached_property, lru_cache, partial
+from typing import NamedTuple
 
 import numpy as np
 
@@ -15,6 +16,7 @@ from usd2kg.grounding.lexical.class_posterior import (
     match_everyday_nouns,
     neighbour_weights,
 )
+from usd2kg.grounding.lexical.concepts.extent import extent_of
 from usd2kg.grounding.lexical.concepts.places import (
     PLACE_TEXTS,
     PLACES,
@@ -39,7 +41,7 @@ from usd2kg.grounding.lexical.settings import VOTE
 from usd2kg.ontology import ClassIRI, TBox
 from usd2kg.table_cache import TableCache
 
-__all__ = ["ContextEvidence"]
+__all__ = ["AppearanceKey", "ContextEvidence"]
 
 _NEARNESS_TEXTS = {
     Nearness.NEXT: "right beside it",
@@ -47,6 +49,16 @@ _NEARNESS_TEXTS = {
     Nearness.SAME_SIZE: "of the same size",
     Nearness.SIMILAR_SIZE: "of about the same size",
 }
+
+
+class AppearanceKey(NamedTuple):
+    """What an object looks like and where, equal for copies that stand alike in places of one kind."""
+
+    size: Size
+    """Rounded extents in metres."""
+    stance: Stance
+    places: tuple[str, ...]
+    """The kinds of place that names above mention."""
 
 
 class ContextEvidence:
@@ -79,16 +91,20 @@ class ContextEvidence:
             return ()
         return view.neighbourhood.of_stage(self._find_prefix)
 
-    def posterior_by_appearance(self, view: ObjectView) -> ClassPosterior:
-        """Return class probabilities given size, stance and the places that names above mention; ignores the name."""
+    def appearance_key(self, view: ObjectView) -> AppearanceKey | None:
+        """Return what `posterior_by_appearance` depends on; None if the size is unknown."""
         seen = view.appearance
         if seen is None:
-            return NO_POSTERIOR
-        return self._posterior_by_appearance(round_size(seen.size), stance_of(seen), places_named(view.parents))
+            return None
+        return AppearanceKey(round_size(seen.size), stance_of(seen), places_named(view.parents))
 
-    def _compute_posterior_by_appearance(self, size: Size, stance: Stance, named: tuple[str, ...]) -> ClassPosterior:
-        log_likelihoods = size_log_likelihoods(size) + log_stance_likelihoods(stance)
-        return self._model.posterior(log_likelihoods, place_probabilities(np.zeros(len(PLACES)), named))
+    def posterior_by_appearance(self, key: AppearanceKey | None) -> ClassPosterior:
+        """Return class probabilities given size, stance and the places that names above mention; ignores the name."""
+        return NO_POSTERIOR if key is None else self._posterior_by_appearance(key)
+
+    def _compute_posterior_by_appearance(self, key: AppearanceKey) -> ClassPosterior:
+        log_likelihoods = size_log_likelihoods(key.size) + log_stance_likelihoods(key.stance)
+        return self._model.posterior(log_likelihoods, place_probabilities(np.zeros(len(PLACES)), key.places))
 
     def posterior(self, view: ObjectView) -> ClassPosterior:
         """Return class probabilities given size, stance, surrounding objects and places that names above mention."""
@@ -178,7 +194,7 @@ class ContextEvidence:
         return place
 
     def _vote_of_neighbour(self, name: str, parents: tuple[str, ...], size: Size | None) -> Vote | None:
-        return None if is_generated_name(name) else vote_of(self._words.match(name, parents, size))
+        return None if is_generated_name(name) else vote_of(self._words.match(name, parents, extent_of(size)))
 
     def _log_places_around(self, view: ObjectView) -> Floats:
         """Return the log likelihood of each kind of place given the surrounding objects, (places,)."""

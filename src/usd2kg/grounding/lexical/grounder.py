@@ -69,18 +69,26 @@ class LexicalGrounder:
     def ground_views(self, views: Sequence[tuple[str, ObjectView]], tbox: TBox) -> list[Prediction]:
         """Return one prediction with a calibrated confidence for each (prim path, view)."""
         with paused_collection():
-            scored = self.score_views(views, tbox)
-            general = self.general_classes(tbox)
+            grounder = self.object_grounder(tbox)
+            scored = _predict_by_size(grounder, [view for _, view in views])
+            general = grounder.general_classes
             log_odds = general_class_log_odds((one.prediction for one in scored), general)
-            calibrated = [
-                replace(one.prediction, confidence=calibrate(features_of(one, tbox, general, log_odds)))
-                if one.prediction.class_iri is not None
-                else one.prediction
-                for one in scored
+            # Copies share one result.
+            distinct = {id(one): one for one in scored}
+            calibrated = {key: self._calibrate(one, tbox, general, log_odds) for key, one in distinct.items()}
+            placed = [
+                replace(calibrated[id(one)], prim_path=path) for (path, _), one in zip(views, scored, strict=True)
             ]
-            if self._abstains:
-                calibrated = [_abstain(one, tbox) for one in calibrated]
-            return reconcile_copies([view for _, view in views], calibrated, tbox)
+            return reconcile_copies([view for _, view in views], placed, tbox)
+
+    def _calibrate(self, scored: ScoredView, tbox: TBox, general: frozenset[ClassIRI], log_odds: float) -> Prediction:
+        """Return a prediction with a calibrated confidence, generalised if the grounder abstains."""
+        prediction = scored.prediction
+        if prediction.class_iri is None:
+            return prediction
+        confidence = calibrate(features_of(scored, tbox, general, log_odds))
+        calibrated = replace(prediction, confidence=confidence)
+        return _abstain(calibrated, tbox) if self._abstains else calibrated
 
     def format_alignment(self, tbox: TBox, others: "Iterable[AlignmentRow]" = ()) -> str:
         """Return the alignment of the classes with concepts and terms as SSSOM/TSV, to be edited.
@@ -107,11 +115,22 @@ class LexicalGrounder:
     def score_views(self, views: Sequence[tuple[str, ObjectView]], tbox: TBox) -> list[ScoredView]:
         """Return the best candidate of each (prim path, view), with an uncalibrated score."""
         grounder = self.object_grounder(tbox)
-        return [grounder.predict(path, view) for path, view in views]
+        scored = _predict_by_size(grounder, [view for _, view in views])
+        return [
+            one._replace(prediction=replace(one.prediction, prim_path=path))
+            for (path, _), one in zip(views, scored, strict=True)
+        ]
 
     def object_grounder(self, tbox: TBox) -> ObjectGrounder:
         """Return the grounder of single objects to the classes of a TBox."""
         return _make_object_grounder(tbox, self._use_home_synonyms, self._use_member_lists, self._alignment)
+
+
+def _predict_by_size(grounder: ObjectGrounder, views: Sequence[ObjectView]) -> list[ScoredView]:
+    """Return the answer for each view; copies come one after the other, so that small caches find their results."""
+    order = sorted(range(len(views)), key=lambda index: views[index].own_size or ())
+    by_index = {index: grounder.predict(views[index]) for index in order}
+    return [by_index[index] for index in range(len(views))]
 
 
 def _abstain(prediction: Prediction, tbox: TBox) -> Prediction:

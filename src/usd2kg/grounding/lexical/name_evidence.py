@@ -5,7 +5,7 @@ from functools import cached_property, lru_cache, partial
 
 from usd2kg.grounding.context.views import ObjectView
 from usd2kg.grounding.lexical.alignment.lexicon import Lexicon
-from usd2kg.grounding.lexical.concepts.sizes import Size
+from usd2kg.grounding.lexical.concepts.extent import Extent, extent_of
 from usd2kg.grounding.lexical.concepts.taxonomy import Taxonomy
 from usd2kg.grounding.lexical.evidence_combination import ScoredClass
 from usd2kg.grounding.lexical.matching.head_matching import ClassRanker, Match
@@ -14,6 +14,7 @@ from usd2kg.grounding.lexical.reading.abbreviations import AbbreviationReader, R
 from usd2kg.grounding.lexical.reading.english_words import SHORTEST_WORD, is_english_word
 from usd2kg.grounding.lexical.reading.evidence_texts import texts_of
 from usd2kg.grounding.lexical.reading.noun_phrase import NameReader
+from usd2kg.grounding.lexical.reading.object_words import ObjectWords, object_words
 from usd2kg.grounding.lexical.reading.shortening import may_be_short
 from usd2kg.grounding.lexical.settings import ABBREVIATED_NAME, EVIDENCE, KIND_RANKING
 from usd2kg.languages import translate
@@ -56,30 +57,53 @@ class NameEvidence:
         self._reader = reader
         self._matcher = matcher
         self._ranker = ranker
-        self.match = lru_cache(maxsize=8192)(self._match)
-        """(text, names above, extents in metres or None, whether the ontology is made for the stage) → matches of the
-        text, best first."""
+        self._match_equalized = lru_cache(maxsize=8192)(self._match)
 
-    def score_words(self, view: ObjectView) -> list[ScoredClass]:
-        """Return the classes that words support, best first; reading stops at the first clear source."""
+    def words_of(self, view: ObjectView) -> ObjectWords:
+        """Return what the words of a view depend on."""
+        return object_words(view, self._reader)
+
+    def match(
+        self,
+        text: str,
+        parents: tuple[str, ...],
+        extent: Extent | None = None,
+        is_made_for_it: bool = False,
+    ) -> tuple[Match, ...]:
+        """Return the classes that a text means, best first.
+
+        Args:
+            text: a name, or another text.
+            parents: the names above, outermost first.
+            extent: the size of the object; None if it is unknown, or the text is not its name.
+            is_made_for_it: whether the ontology is made for the stage.
+        """
+        return self._match_equalized(*self._reader.equalize(text, parents), extent, is_made_for_it)
+
+    def score_words(self, words: ObjectWords, *, is_made_for_it: bool) -> list[ScoredClass]:
+        """Return the classes that words support, best first; reading stops at the first clear source.
+
+        Args:
+            words: the words of the object.
+            is_made_for_it: see `is_made_for_stage`.
+        """
         scored: list[ScoredClass] = []
-        for found in self.score_sources(view):
+        for found in self.score_sources(words, is_made_for_it=is_made_for_it):
             scored = sorted([*scored, *found], key=lambda each: (-each.score, each.class_iri))
             if scored and scored[0].score >= EVIDENCE.clear_score:
                 break
         return scored
 
-    def score_sources(self, view: ObjectView) -> Iterator[list[ScoredClass]]:
-        """Yield the classes that each source of words supports, the most reliable source first."""
-        is_made_for_it = self._is_made_for_stage(view)
-        for group, text in texts_of(view):
-            if group in {"hierarchy", "parts"} and self._reader.names_known_noun(view.name):
+    def score_sources(self, words: ObjectWords, *, is_made_for_it: bool) -> Iterator[list[ScoredClass]]:
+        """Yield the classes that each source of words supports, the most reliable source first; see `score_words`."""
+        for group, text in texts_of(words):
+            if group in {"hierarchy", "parts"} and self._reader.names_known_noun(words.name):
                 # The name is understood and no class fits, so groups and parts could only add a wrong class: a tulip
                 # has a stem, and so has a pipe.
                 break
             is_name = group == "name"
-            above, size = (view.parents, view.own_size) if is_name else ((), None)
-            matches = self.match(text, above, size, is_made_for_it)
+            above, extent = (words.parents, words.extent) if is_name else ((), None)
+            matches = self.match(text, above, extent, is_made_for_it)
             weight = _WEIGHTS[group]
             yield [
                 ScoredClass(
@@ -104,9 +128,8 @@ class NameEvidence:
             view: the object.
             scored: the classes by the known words alone; returned unchanged if no expansion is likely.
         """
-        matches = self.match(view.name, view.parents, view.own_size, self._is_made_for_stage(view))
-        words = matches[0].phrase.words[-ABBREVIATED_NAME.max_tokens :] if matches else ()
-        spelled = {word for word in words if self._is_word(word) or not may_be_short(word)}
+        words = self._last_words(self.words_of(view), is_made_for_it=self.is_made_for_stage(view))
+        spelled = self._spelled_words(words)
         if spelled.issuperset(words):
             return scored
         readings = self._read_abbreviation(view, words, spelled)
@@ -124,6 +147,18 @@ class NameEvidence:
         ]
         return sorted(expanded, key=lambda found: (-found.score, found.class_iri))
 
+    def is_complete(self, words: ObjectWords, *, is_made_for_it: bool) -> bool:
+        """Return whether a clear name has no word that `complete` may expand."""
+        last = self._last_words(words, is_made_for_it=is_made_for_it)
+        return self._spelled_words(last).issuperset(last)
+
+    def _last_words(self, words: ObjectWords, *, is_made_for_it: bool) -> tuple[str, ...]:
+        matches = self.match(words.name, words.parents, words.extent, is_made_for_it)
+        return matches[0].phrase.words[-ABBREVIATED_NAME.max_tokens :] if matches else ()
+
+    def _spelled_words(self, words: Sequence[str]) -> set[str]:
+        return {word for word in words if self._is_word(word) or not may_be_short(word)}
+
     def _read_abbreviation(self, view: ObjectView, words: Sequence[str], spelled: set[str]) -> list[Reading]:
         parent = view.parents[-1] if view.parents else ""
         return self._abbreviations.read(words, view.neighbourhood, spelled, parent)
@@ -136,7 +171,7 @@ class NameEvidence:
         total = ABBREVIATED_NAME.unmatched_weight * (1 - sum(reading.probability for reading in readings))
         for reading in readings:
             phrase = self._reader.phrase(reading.words)
-            matches, likelihood = self._matcher.match_with_likelihood(phrase, view.parents, view.own_size)
+            matches, likelihood = self._matcher.match_with_likelihood(phrase, view.parents, extent_of(view.own_size))
             weight = reading.probability * max(likelihood, ABBREVIATED_NAME.unmatched_weight)
             total += weight
             if matches:
@@ -168,7 +203,7 @@ class NameEvidence:
     def _is_word(self, word: str) -> bool:
         return self._reader.kinds.is_known(word) or is_english_word(word)
 
-    def _is_made_for_stage(self, view: ObjectView) -> bool:
+    def is_made_for_stage(self, view: ObjectView) -> bool:
         """Return whether the ontology has specific classes for most objects of the stage; True without a stage."""
         if self._ranker is None or self._ranker.is_for_any_stage or view.is_masked or view.neighbourhood is None:
             return True
@@ -182,13 +217,13 @@ class NameEvidence:
         return general <= KIND_RANKING.max_general_share * max(len(found), KIND_RANKING.min_stage_names)
 
     def _match(
-        self, text: str, parents: tuple[str, ...], size: Size | None = None, is_made_for_it: bool = False
+        self, text: str, parents: tuple[str, ...], extent: Extent | None, is_made_for_it: bool
     ) -> tuple[Match, ...]:
         phrase = self._reader.read(text, parents)
-        matches = self._matcher.match(phrase, parents, size)
+        matches = self._matcher.match(phrase, parents, extent)
         if self._ranker is None or not (is_made_for_it or self._ranker.is_for_any_stage):
             return tuple(matches)
-        return self._ranker.rank(phrase, parents, size, matches)
+        return self._ranker.rank(phrase, parents, extent, matches)
 
 
 def _explain_match(match: Match, group: str) -> str:

@@ -2,7 +2,7 @@
 
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import replace
-from functools import partial
+from functools import lru_cache, partial
 from typing import TYPE_CHECKING, Any
 
 from usd2kg.grounding.context.views import ObjectView
@@ -11,9 +11,10 @@ from usd2kg.grounding.lexical.alignment.lexicon import Lexicon
 from usd2kg.grounding.lexical.alignment.lexicon_json import lexicon_as_json, lexicon_of_json
 from usd2kg.grounding.lexical.alignment.terms import TermKind
 from usd2kg.grounding.lexical.candidate_evidence import CandidateEvidence, weigh_candidates
+from usd2kg.grounding.lexical.class_posterior import NO_POSTERIOR, ClassPosterior
 from usd2kg.grounding.lexical.concepts.categories import invert_categories
 from usd2kg.grounding.lexical.concepts.taxonomy import Taxonomy, load_taxonomy
-from usd2kg.grounding.lexical.context_evidence import ContextEvidence
+from usd2kg.grounding.lexical.context_evidence import AppearanceKey, ContextEvidence
 from usd2kg.grounding.lexical.evidence_combination import CONTEXT_GROUPS, ScoredClass, combine_evidence
 from usd2kg.grounding.lexical.matching.head_matching import ClassRanker
 from usd2kg.grounding.lexical.matching.kind_ranking import KindRanker
@@ -23,6 +24,7 @@ from usd2kg.grounding.lexical.matching.term_matching import TermMatcher
 from usd2kg.grounding.lexical.name_evidence import NameEvidence
 from usd2kg.grounding.lexical.reading.evidence_texts import is_generated_name
 from usd2kg.grounding.lexical.reading.noun_phrase import NameReader
+from usd2kg.grounding.lexical.reading.object_words import ObjectWords
 from usd2kg.grounding.lexical.reading.shared_prefix import view_without_prefix
 from usd2kg.grounding.lexical.scored_view import ScoredView
 from usd2kg.grounding.lexical.settings import EVIDENCE
@@ -80,6 +82,9 @@ class ObjectGrounder:
         self._is_fallback = terms.is_fallback
         self._words = NameEvidence(self._lexicon, taxonomy, self.reader, self.matcher, self._class_ranker(tables))
         self._context = ContextEvidence(self._tbox, self._words, self.reader, self.matcher, tables)
+        # Copies of one model have the same words and size; they differ in their neighbours, which clear words ignore.
+        self._predict_by_words = lru_cache(maxsize=1024)(self._predict_clear)
+        self._predict_copy = lru_cache(maxsize=1024)(self._predict_looking_alike)
 
     def _class_ranker(self, tables: TableCache) -> ClassRanker | None:
         """Return what ranks the classes of whole names; None if the head noun is enough.
@@ -107,17 +112,20 @@ class ObjectGrounder:
         built = self._build()
         return format_alignment(built.tbox, built.lexicon, self._taxonomy, [*built.rows, *others])
 
-    def predict(self, prim_path: str, view: ObjectView) -> ScoredView:
-        """Return the class of a view with an uncalibrated score."""
+    def predict(self, view: ObjectView) -> ScoredView:
+        """Return the class of a view with an uncalibrated score and no prim path; equal views share one result."""
         prefix = self._context.shared_prefix(view)
         shown = view_without_prefix(view, prefix)
-        scored = self._predict(prim_path, shown)
-        scored = scored._replace(unknown_share=self._unknown_share(scored.prediction, shown))
-        if shown.name == view.name:
-            return scored
-        note = f"most names of the stage begin with “{' '.join(prefix)}”, which was left out"
-        explanation = f"{scored.prediction.explanation}; {note}"
-        return scored._replace(prediction=replace(scored.prediction, explanation=explanation))
+        left_out = "" if shown.name == view.name else " ".join(prefix)
+        appearance = self._context.appearance_key(shown)
+        if not shown.is_masked and not is_generated_name(shown.name):
+            words, is_made_for_it = self._words.words_of(shown), self._words.is_made_for_stage(shown)
+            clear = self._predict_copy(words, is_made_for_it, left_out, appearance)
+            if clear is not None:
+                return clear
+        scored = self._predict(shown, self._context.posterior_by_appearance(appearance))
+        unknown_share = self._unknown_share(scored.prediction, shown.name, shown.parents)
+        return _with_note(scored._replace(unknown_share=unknown_share), left_out)
 
     def weigh(
         self, view: ObjectView, candidates: Iterable[ClassIRI]
@@ -125,26 +133,47 @@ class ObjectGrounder:
         """Return what each source says about each candidate of a view."""
         return weigh_candidates(self._words, self._context, view, candidates, self._tbox)
 
-    def _unknown_share(self, prediction: Prediction, view: ObjectView) -> float:
-        words = prediction.words or self.reader.read(view.name, view.parents).words
+    def _predict_looking_alike(
+        self, words: ObjectWords, is_made_for_it: bool, left_out: str, appearance: AppearanceKey | None
+    ) -> ScoredView | None:
+        """Return the class of an object as `_predict_clear` does, with its posterior by appearance."""
+        clear = self._predict_by_words(words, is_made_for_it, left_out)
+        return clear and clear._replace(posterior=self._context.posterior_by_appearance(appearance))
+
+    def _predict_clear(self, words: ObjectWords, is_made_for_it: bool, left_out: str) -> ScoredView | None:
+        """Return the class of an object whose words are clear and complete; None if others may affect its class."""
+        scored = self._words.score_words(words, is_made_for_it=is_made_for_it)
+        if not scored or scored[0].score < EVIDENCE.clear_score:
+            return None
+        if scored[0].group == "name" and not self._words.is_complete(words, is_made_for_it=is_made_for_it):
+            return None
+        found = self._best_of(scored, NO_POSTERIOR)
+        unknown_share = self._unknown_share(found.prediction, words.name, words.parents)
+        return _with_note(found._replace(unknown_share=unknown_share), left_out)
+
+    def _unknown_share(self, prediction: Prediction, name: str, parents: tuple[str, ...]) -> float:
+        words = prediction.words or self.reader.read(name, parents).words
         unknown = [word for word in words if not self.reader.kinds.is_known(word)]
         return len(unknown) / len(words) if words else 0.0
 
-    def _predict(self, prim_path: str, view: ObjectView) -> ScoredView:
-        posterior = self._context.posterior_by_appearance(view)
+    def _predict(self, view: ObjectView, posterior: ClassPosterior) -> ScoredView:
         scored, word_score = self._score(view)
         if not scored or max(scored[0].score, word_score) < EVIDENCE.min_score:
-            return ScoredView(self._default(prim_path, "the evidence does not determine its class"), posterior)
+            return ScoredView(self._default("the evidence does not determine its class"), posterior)
+        return self._best_of(scored, posterior)
+
+    def _best_of(self, scored: list[ScoredClass], posterior: ClassPosterior) -> ScoredView:
+        """Return the answer by scored classes, best first, at least one."""
         best = scored[0]
         if best.class_iri == NO_CLASS_IRI:
-            return ScoredView(_refusal(prim_path, best.explain()), posterior)
+            return ScoredView(_refusal(best.explain()), posterior)
         if best.group in CONTEXT_GROUPS and self._is_fallback(best.class_iri):
             # Two unidentified objects are not evidence for each other.
-            return ScoredView(self._default(prim_path, best.explain()), posterior)
+            return ScoredView(self._default(best.explain()), posterior)
         scores = {found.class_iri: found.score for found in reversed(scored) if found.class_iri != NO_CLASS_IRI}
         candidates = sorted(scores.items(), key=lambda candidate: (-candidate[1], candidate[0]))
         prediction = Prediction(
-            prim_path=prim_path,
+            prim_path="",
             class_iri=best.class_iri,
             confidence=round(best.score, 4),
             status=Status.GROUNDED,
@@ -161,7 +190,8 @@ class ObjectGrounder:
         is_generated = is_generated_name(view.name)
         scored: list[ScoredClass] = []
         if not view.is_masked:
-            scored = self._words.score_words(replace(view, name="") if is_generated else view)
+            words = self._words.words_of(replace(view, name="") if is_generated else view)
+            scored = self._words.score_words(words, is_made_for_it=self._words.is_made_for_stage(view))
         if scored and scored[0].score >= EVIDENCE.clear_score and scored[0].group == "name":
             scored = self._words.complete(view, scored)
         word_score = scored[0].score if scored else 0.0
@@ -184,12 +214,12 @@ class ObjectGrounder:
             is_masked=view.is_masked,
         )
 
-    def _default(self, prim_path: str, reason: str) -> Prediction:
+    def _default(self, reason: str) -> Prediction:
         iri = self._lexicon.default_class
         if iri is None or iri == NO_CLASS_IRI:
-            return _refusal(prim_path, f"{reason}; {NO_CLASS} applies to most objects")
+            return _refusal(f"{reason}; {NO_CLASS} applies to most objects")
         return Prediction(
-            prim_path=prim_path,
+            prim_path="",
             class_iri=iri,
             confidence=EVIDENCE.default_confidence,
             status=Status.SUPERCLASS,
@@ -199,8 +229,17 @@ class ObjectGrounder:
         )
 
 
-def _refusal(prim_path: str, explanation: str) -> Prediction:
-    return Prediction(prim_path, None, None, Status.REFUSED, _GROUNDER, explanation)
+def _refusal(explanation: str) -> Prediction:
+    return Prediction("", None, None, Status.REFUSED, _GROUNDER, explanation)
+
+
+def _with_note(scored: ScoredView, left_out: str) -> ScoredView:
+    """Return an answer whose explanation mentions the prefix that was left out, if any."""
+    if not left_out:
+        return scored
+    note = f"most names of the stage begin with “{left_out}”, which was left out"
+    explanation = f"{scored.prediction.explanation}; {note}"
+    return scored._replace(prediction=replace(scored.prediction, explanation=explanation))
 
 
 def _build(

@@ -9,14 +9,15 @@ from typing import NamedTuple
 
 from usd2kg.grounding.context.views import ObjectView
 from usd2kg.grounding.lexical.alignment.lexicon import Lexicon
+from usd2kg.grounding.lexical.concepts.extent import Extent, extent_of
 from usd2kg.grounding.lexical.concepts.home_names import home_words
 from usd2kg.grounding.lexical.concepts.senses import sense_weight
-from usd2kg.grounding.lexical.concepts.sizes import Size, round_size
 from usd2kg.grounding.lexical.concepts.taxonomy import Taxonomy, load_taxonomy
 from usd2kg.grounding.lexical.matching.head_matching import HeadMatches, Match
 from usd2kg.grounding.lexical.matching.phrase_matching import PhraseMatcher
 from usd2kg.grounding.lexical.reading.evidence_texts import is_generated_name, texts_of
 from usd2kg.grounding.lexical.reading.noun_phrase import NamePhrase, NameReader
+from usd2kg.grounding.lexical.reading.object_words import ObjectWords, object_words
 from usd2kg.grounding.lexical.reading.shared_prefix import shared_prefix, view_without_prefix
 from usd2kg.grounding.lexical.settings import CONCEPT, MATCHING, READING
 from usd2kg.grounding.model import Concept
@@ -80,6 +81,7 @@ class ConceptRecognizer:
         # Scenes cache results by the identity of the function, and each access to a method creates a new object.
         self._find_prefix = partial(shared_prefix, names_object=self._reader.names_known_noun)
         self._recognize_text = lru_cache(maxsize=8192)(self._read_and_match)
+        self._recognize_words = lru_cache(maxsize=1024)(self._recognize_texts)
 
     def recognize(self, view: ObjectView, words: tuple[str, ...] = ()) -> Recognition | None:
         """Return the concept that an object's words name; None if they name none.
@@ -91,16 +93,18 @@ class ConceptRecognizer:
         if not view.is_masked and view.neighbourhood is not None:
             view = view_without_prefix(view, view.neighbourhood.of_stage(self._find_prefix))
         if words and (view.is_masked or not self._is_spelled_out(view.name)):
-            return self._match(self._reader.phrase(words), view.parents, view.own_size)
+            return self._match(self._reader.phrase(words), view.parents, extent_of(view.own_size))
         if view.is_masked:
             return None
-        for group, text in texts_of(view):
+        return self._recognize_words(object_words(view, self._reader))
+
+    def _recognize_texts(self, words: ObjectWords) -> Recognition | None:
+        for group, text in texts_of(words):
             is_name = group == "name"
             if group == "parts" or (is_name and is_generated_name(text)):
                 continue
-            size = round_size(view.own_size) if is_name and view.own_size is not None else None
-            # Copies differ in their numbers.
-            found = self._recognize_text(text.rstrip("0123456789_"), view.parents if is_name else (), size)
+            extent = extent_of(words.extent.size) if is_name and words.extent is not None else None
+            found = self._recognize_text(text.rstrip("0123456789_"), words.parents if is_name else (), extent)
             if found is not None:
                 return found
         return None
@@ -109,11 +113,11 @@ class ConceptRecognizer:
         phrase = self._reader.read(name)
         return not phrase.corrections and all(map(self._reader.kinds.is_known, phrase.words))
 
-    def _read_and_match(self, text: str, parents: tuple[str, ...], size: Size | None) -> Recognition | None:
-        return self._match(self._reader.read(text, parents), parents, size)
+    def _read_and_match(self, text: str, parents: tuple[str, ...], extent: Extent | None) -> Recognition | None:
+        return self._match(self._reader.read(text, parents), parents, extent)
 
-    def _match(self, phrase: NamePhrase, parents: tuple[str, ...], size: Size | None) -> Recognition | None:
-        matches = self._matcher.match(phrase, parents, size)
+    def _match(self, phrase: NamePhrase, parents: tuple[str, ...], extent: Extent | None) -> Recognition | None:
+        matches = self._matcher.match(phrase, parents, extent)
         if not matches:
             return None
         return Recognition(matches[0].class_iri, matches[0].score / sum(match.score for match in matches))
@@ -148,7 +152,9 @@ class _SenseMatcher:
         """Return the senses of a compound of two words; empty if it is not known as a compound."""
         return self._match_noun("".join(words), True)
 
-    def place_words(self, context: tuple[str, ...], parents: tuple[str, ...]) -> tuple[str, ...]:
+    def place_words(
+        self, words: tuple[str, ...], context: tuple[str, ...], parents: tuple[str, ...]
+    ) -> tuple[str, ...]:
         """Return no words: a cabinet in the kitchen is a cabinet."""
         return ()
 

@@ -3,7 +3,7 @@
 from collections.abc import Callable, Sequence
 from typing import NamedTuple, Protocol
 
-from usd2kg.grounding.lexical.concepts.sizes import Size
+from usd2kg.grounding.lexical.concepts.extent import Extent
 from usd2kg.grounding.lexical.reading.noun_phrase import NamePhrase
 from usd2kg.ontology import ClassIRI
 
@@ -54,10 +54,13 @@ class HeadMatcher(Protocol):
         """Return the possible meanings of a two-word compound; empty if the compound is unknown."""
         ...
 
-    def place_words(self, context: tuple[str, ...], parents: tuple[str, ...]) -> tuple[str, ...]:
+    def place_words(
+        self, words: tuple[str, ...], context: tuple[str, ...], parents: tuple[str, ...]
+    ) -> tuple[str, ...]:
         """Return the words for places that matter to `match`, nearest first.
 
         Args:
+            words: the words of a name.
             context: words of a name that refer to its parent or place.
             parents: the names above, outermost first.
         """
@@ -84,14 +87,14 @@ class ClassRanker(Protocol):
         ...
 
     def rank(
-        self, phrase: NamePhrase, parents: tuple[str, ...], size: Size | None, matches: Sequence[Match]
+        self, phrase: NamePhrase, parents: tuple[str, ...], extent: Extent | None, matches: Sequence[Match]
     ) -> tuple[Match, ...]:
         """Return the classes of a name, best first.
 
         Args:
             phrase: the name.
             parents: the names of the prims above, outermost first.
-            size: extents of the object in metres, in any order.
+            extent: the size of the object.
             matches: the classes by the head noun, best first.
         """
         ...

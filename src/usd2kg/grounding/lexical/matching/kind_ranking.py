@@ -22,7 +22,7 @@ from numpy.typing import NDArray
 from usd2kg.grounding.lexical.alignment.label_words import words_of_label
 from usd2kg.grounding.lexical.alignment.lexicon import Lexicon
 from usd2kg.grounding.lexical.concepts.categories import KindNames
-from usd2kg.grounding.lexical.concepts.sizes import Size
+from usd2kg.grounding.lexical.concepts.extent import Extent
 from usd2kg.grounding.lexical.concepts.taxonomy import Taxonomy
 from usd2kg.grounding.lexical.concepts.word_vectors import load_word_vectors
 from usd2kg.grounding.lexical.matching.head_matching import Match
@@ -123,7 +123,7 @@ class KindRanker:
         self._name_words = lru_cache(maxsize=4096)(self._read_name_words)
 
     def rank(
-        self, phrase: NamePhrase, parents: tuple[str, ...], size: Size | None, matches: Sequence[Match]
+        self, phrase: NamePhrase, parents: tuple[str, ...], extent: Extent | None, matches: Sequence[Match]
     ) -> tuple[Match, ...]:
         """Return the classes as `ClassRanker.rank` does; the best one gets the highest score of a match.
 
@@ -131,7 +131,7 @@ class KindRanker:
         """
         if not matches or matches[0].is_listed:
             return tuple(matches)
-        heads = self._matcher.head_shares(phrase, parents, size)
+        heads = self._matcher.head_shares(phrase, parents, extent)
         kinds = self.find_kinds(heads)
         utilities = _weights() @ np.stack(self.features(phrase, parents, heads, kinds, matches))
         utilities[[self._places[iri] for iri in self._excluded_classes(heads)]] = -np.inf

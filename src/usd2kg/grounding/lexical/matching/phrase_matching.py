@@ -5,11 +5,10 @@ from functools import lru_cache
 from math import log
 from typing import NamedTuple
 
+from usd2kg.grounding.lexical.concepts.extent import Extent
 from usd2kg.grounding.lexical.concepts.senses import usual_sense
 from usd2kg.grounding.lexical.concepts.sizes import (
-    Size,
     everyday_object_row,
-    round_size,
     size_log_likelihood_ratio,
 )
 from usd2kg.grounding.lexical.concepts.taxonomy import Taxonomy
@@ -80,19 +79,6 @@ class _ParentWords(NamedTuple):
 _NO_PARENT = _ParentWords(frozenset(), (), frozenset())
 
 
-class _Extent(NamedTuple):
-    """The size of an object, equal for copies that differ by rounding errors."""
-
-    size: Size
-    """Rounded extents in metres."""
-    is_below_places: bool
-    """Whether it is too small for a place."""
-
-
-def _extent_of(size: Size | None) -> _Extent | None:
-    return None if size is None else _Extent(round_size(size), max(size) < HEAD_NOUN.min_place_size)
-
-
 class PhraseMatcher:
     """Matches noun phrases with the meanings of their head nouns: classes of a TBox, or concepts."""
 
@@ -108,7 +94,7 @@ class PhraseMatcher:
         # Copies of one model have the same name and size.
         self._known_matches = lru_cache(maxsize=16384)(self._find_matches)
 
-    def match(self, phrase: NamePhrase, parents: tuple[str, ...], size: Size | None = None) -> list[Match]:
+    def match(self, phrase: NamePhrase, parents: tuple[str, ...], extent: Extent | None = None) -> list[Match]:
         """Return the classes that a phrase may mean, best first; none if no word is known.
 
         Each word is tried as the head noun: the bowl of `bowl_salad_oak`. Its weight depends on what follows, on
@@ -117,21 +103,32 @@ class PhraseMatcher:
         Args:
             phrase: the name.
             parents: the names of the prims above, outermost first.
-            size: extents of the object in metres, in any order.
+            extent: the size of the object.
         """
-        return self.match_with_likelihood(phrase, parents, size)[0]
+        return self.match_with_likelihood(phrase, parents, extent)[0]
 
     def match_with_likelihood(
-        self, phrase: NamePhrase, parents: tuple[str, ...], size: Size | None = None
+        self, phrase: NamePhrase, parents: tuple[str, ...], extent: Extent | None = None
     ) -> tuple[list[Match], float]:
         """Return the classes as `match` does, and the likelihood of such a name for an object of that size."""
         places, parent = self._surroundings(phrase, parents)
-        matches, likelihood = self._known_matches(phrase, phrase.glued, places, parent, _extent_of(size))
+        matches, likelihood = self._known_matches(phrase, phrase.glued, places, parent, extent)
         return list(matches), likelihood
 
     def _surroundings(self, phrase: NamePhrase, parents: tuple[str, ...]) -> tuple[tuple[str, ...], _ParentWords]:
         parent = self._parent_words(parents[-1]) if parents else _NO_PARENT
-        return self._heads.place_words(phrase.context, parents), parent
+        # Copies are usually below many prims that have nothing to do with them.
+        parent = parent if self._is_related(phrase, parent) else _NO_PARENT
+        return self._heads.place_words(phrase.words, phrase.context, parents), parent
+
+    def _is_related(self, phrase: NamePhrase, parent: _ParentWords) -> bool:
+        """Return whether the words of the parent may affect the matches of a phrase."""
+        words = phrase.words
+        nouns = {*words, *map(self._taxonomy.singular, words)}
+        if not (parent.known.isdisjoint(nouns) and parent.written.isdisjoint(nouns)):
+            return True
+        ends = range(1, len(words) + 1)
+        return not phrase.context and any(self._heads.whole_words(words[:end], parent.words) for end in ends)
 
     def _find_matches(
         self,
@@ -139,7 +136,7 @@ class PhraseMatcher:
         glued: tuple[bool, ...],
         places: tuple[str, ...],
         parent: _ParentWords,
-        extent: _Extent | None,
+        extent: Extent | None,
     ) -> tuple[tuple[Match, ...], float]:
         """Return the classes, best first, and the likelihood; `glued` tells apart phrases that compare equal."""
         assert glued == phrase.glued
@@ -165,11 +162,12 @@ class PhraseMatcher:
         return tuple(sorted(matches, key=lambda match: (-match.score, match.class_iri))), total
 
     def head_shares(
-        self, phrase: NamePhrase, parents: tuple[str, ...], size: Size | None
+        self, phrase: NamePhrase, parents: tuple[str, ...], extent: Extent | None
     ) -> list[tuple[float, tuple[str, ...]]]:
         """Return each known compound that the words up to a possible head noun end with, and its probability."""
         found = [
-            (head_likelihood(features), head.words) for _, features, head in self.head_candidates(phrase, parents, size)
+            (head_likelihood(features), head.words)
+            for _, features, head in self.head_candidates(phrase, parents, extent)
         ]
         total = sum([likelihood for likelihood, _ in found])
         return [(likelihood / total, words) for likelihood, words in found]
@@ -185,13 +183,13 @@ class PhraseMatcher:
         return next((row for row in rows if row is not None), None)
 
     def head_candidates(
-        self, phrase: NamePhrase, parents: tuple[str, ...], size: Size | None
+        self, phrase: NamePhrase, parents: tuple[str, ...], extent: Extent | None
     ) -> list[tuple[int, HeadFeatures, HeadCandidate]]:
         """Return the words that may be the head noun, in order, as (number of words up to it, features, meaning)."""
-        return self._head_candidates(phrase, *self._surroundings(phrase, parents), _extent_of(size))
+        return self._head_candidates(phrase, *self._surroundings(phrase, parents), extent)
 
     def _head_candidates(
-        self, phrase: NamePhrase, places: tuple[str, ...], parent: _ParentWords, size: _Extent | None
+        self, phrase: NamePhrase, places: tuple[str, ...], parent: _ParentWords, size: Extent | None
     ) -> list[tuple[int, HeadFeatures, HeadCandidate]]:
         words = phrase.words
         is_corrected = bool(phrase.corrections)
@@ -272,7 +270,7 @@ class PhraseMatcher:
         phrase: NamePhrase,
         end: int,
         head: HeadCandidate,
-        size: _Extent | None,
+        size: Extent | None,
         parent: _ParentWords,
         *,
         is_inside: bool = False,
@@ -305,7 +303,7 @@ class PhraseMatcher:
         )
 
     def _size_log_ratio(
-        self, words: tuple[str, ...], extent: _Extent, traits: _WordTraits, before: tuple[str, ...]
+        self, words: tuple[str, ...], extent: Extent, traits: _WordTraits, before: tuple[str, ...]
     ) -> float | None:
         """Return the bounded log-likelihood ratio of a size for a noun; None if its usual size is unknown.
 

@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from usd2kg.grounding.lexical.alignment.terms import Term
-from usd2kg.grounding.lexical.concepts.sizes import Size
+from usd2kg.grounding.lexical.concepts.extent import Extent
 from usd2kg.grounding.lexical.concepts.taxonomy import Taxonomy
 from usd2kg.grounding.lexical.matching.head_matching import Match
 from usd2kg.grounding.lexical.reading.noun_phrase import NamePhrase
@@ -43,7 +43,7 @@ class SimilarMembers:
         self._columns = {feature: _column(entries) for feature, entries in columns.items()}
 
     def rank(
-        self, phrase: NamePhrase, parents: tuple[str, ...], size: Size | None, matches: Sequence[Match]
+        self, phrase: NamePhrase, parents: tuple[str, ...], extent: Extent | None, matches: Sequence[Match]
     ) -> tuple[Match, ...]:
         """Return the matches of a name and the classes of similar terms, ranked by both, as `ClassRanker.rank` does.
 

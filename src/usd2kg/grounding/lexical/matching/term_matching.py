@@ -1,5 +1,6 @@
 """Match the words up to a head noun with classes, by terms of the TBox, then by hypernyms of the head noun."""
 
+import sys
 from bisect import bisect_left
 from collections.abc import Callable, Iterator, Mapping
 from functools import cached_property, lru_cache, partial
@@ -49,6 +50,7 @@ class TermMatcher:
         # Names repeat the same words.
         self._match_noun = lru_cache(maxsize=4096)(self._compute_noun)
         self._places_of_parents = lru_cache(maxsize=4096)(self._find_places_of_parents)
+        self._rests_of_terms = lru_cache(maxsize=4096)(self._find_rests_of_terms)
 
     def is_subclass(self, special: ClassIRI, general: ClassIRI) -> bool:
         """Return whether a class is a subclass of another, or the same."""
@@ -58,11 +60,16 @@ class TermMatcher:
         """Return whether a class is the default class of a TBox with classes that the home TBox lacks."""
         return self._has_foreign and iri == self._lexicon.default_class
 
-    def place_words(self, context: tuple[str, ...], parents: tuple[str, ...]) -> tuple[str, ...]:
-        """Return the words of a name's context and of the names above that begin a term."""
-        if not context:
-            return self._places_of_parents(parents) if parents else ()
-        return (*filter(self._begins_term, context), *self._places_of_parents(parents))
+    def place_words(
+        self, words: tuple[str, ...], context: tuple[str, ...], parents: tuple[str, ...]
+    ) -> tuple[str, ...]:
+        """Return the words of a name's context and of the names above that begin a term which ends like the name."""
+        places = self._places_of_parents(parents) if parents else ()
+        places = (*filter(self._begins_term, context), *places)
+        if not places:
+            return ()
+        endings = (*words, *map(self._taxonomy.singular, words))
+        return tuple(place for place in places if any(rest.endswith(endings) for rest in self._rests_of_terms(place)))
 
     def whole_words(self, words: tuple[str, ...], whole: tuple[str, ...]) -> tuple[str, ...]:
         """Return the last words of the name of a whole that form a term with the words of its part.
@@ -324,8 +331,13 @@ class TermMatcher:
         return tuple(filter(self._begins_term, words))
 
     def _begins_term(self, word: str) -> bool:
-        at = bisect_left(self._term_keys, word)
-        return at < len(self._term_keys) and self._term_keys[at].startswith(word)
+        return bool(self._rests_of_terms(word))
+
+    def _find_rests_of_terms(self, word: str) -> tuple[str, ...]:
+        """Return what follows a word in each term that begins with it."""
+        keys = self._term_keys
+        start, end = bisect_left(keys, word), bisect_left(keys, word + chr(sys.maxunicode))
+        return tuple(key.removeprefix(word) for key in keys[start:end])
 
     @cached_property
     def _term_keys(self) -> list[str]:

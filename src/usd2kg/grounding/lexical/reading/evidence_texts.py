@@ -2,8 +2,8 @@
 
 import re
 
-from usd2kg.grounding.context.views import ObjectView
 from usd2kg.grounding.lexical.concepts.taxonomy import load_taxonomy
+from usd2kg.grounding.lexical.reading.object_words import ObjectWords
 from usd2kg.grounding.lexical.settings import EVIDENCE
 from usd2kg.knowledge import word_set
 from usd2kg.words import words_of
@@ -27,15 +27,15 @@ def is_generated_name(name: str) -> bool:
     )
 
 
-def texts_of(view: ObjectView) -> list[tuple[str, str]]:
+def texts_of(words: ObjectWords) -> list[tuple[str, str]]:
     """Return (evidence group, text) of the sources of words, the most reliable first."""
-    texts = [("name", view.name), ("name", view.display_name)]
-    texts += [("asset", asset) for asset in view.asset]
-    texts += [("labels", label) for label in view.labels]
-    texts.append(("documentation", _first_noun_phrase(view.documentation)))
-    texts += [("hierarchy", group) for group in reversed(view.groups) if _is_plural(group)]
+    texts = [("name", words.name), ("name", words.display_name)]
+    texts += [("asset", asset) for asset in words.asset]
+    texts += [("labels", label) for label in words.labels]
+    texts.append(("documentation", _first_noun_phrase(words.documentation)))
+    texts += [("hierarchy", group) for group in reversed(words.groups) if _is_plural(group)]
     texts += [
-        ("parts", part) for part in view.parts[: EVIDENCE.max_parts] if not _PRIMITIVES.issuperset(words_of(part))
+        ("parts", part) for part in words.parts[: EVIDENCE.max_parts] if not _PRIMITIVES.issuperset(words_of(part))
     ]
     return [(group, text) for group, text in dict.fromkeys(texts) if text]
 

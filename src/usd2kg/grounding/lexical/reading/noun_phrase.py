@@ -8,6 +8,7 @@ from itertools import pairwise, takewhile
 
 from usd2kg.grounding.lexical.alignment.lexicon import Lexicon
 from usd2kg.grounding.lexical.concepts.taxonomy import Taxonomy
+from usd2kg.grounding.lexical.reading.copy_numbers import without_copy_numbers
 from usd2kg.grounding.lexical.reading.shortening import usual_abbreviations
 from usd2kg.grounding.lexical.reading.spelling import SpellingCorrector
 from usd2kg.grounding.lexical.reading.tokens import Token, is_compound_part, is_reference, parent_tokens, tokens_of
@@ -55,15 +56,26 @@ class NameReader:
         self._taxonomy = taxonomy
         self.kinds = WordKinds(lexicon, taxonomy)
         self._spelling = SpellingCorrector(lexicon, taxonomy, self.kinds)
-        self.read = lru_cache(maxsize=4096)(self._read)
-        """(name, names of the prims above, outermost first) → phrase."""
-        # Copies differ in their numbers, and most names do not refer to the prims above.
+        self._read_equalized = lru_cache(maxsize=16384)(self._read)
+        self._tokens = lru_cache(maxsize=4096)(self._find_tokens)
+        # Most names do not refer to the prims above.
         self._read_tokens = lru_cache(maxsize=16384)(self._compute_phrase)
 
-    def _read(self, name: str, parents: tuple[str, ...] = ()) -> NamePhrase:
-        tokens = self._content_tokens(self._cut_additions(tokens_of(name)))[: READING.max_words]
-        tokens, references = self._split_references(tokens, parents)
+    def read(self, name: str, parents: tuple[str, ...] = ()) -> NamePhrase:
+        """Return the phrase of a name below other names, outermost first."""
+        return self._read_equalized(*self.equalize(name, parents))
+
+    def equalize(self, name: str, parents: tuple[str, ...]) -> tuple[str, tuple[str, ...]]:
+        """Return a name and the names above as `without_copy_numbers` does; unchanged if numbers have a meaning."""
+        return (name, parents) if self._digits_in_terms else without_copy_numbers(name, parents)
+
+    def _read(self, name: str, parents: tuple[str, ...]) -> NamePhrase:
+        tokens, references = self._split_references(self._tokens(name), parents)
         return self._read_tokens(tuple(Token(token.text, "", token.is_glued) for token in tokens), _texts(references))
+
+    def _find_tokens(self, name: str) -> list[Token]:
+        """Return the tokens of a name that may describe an object."""
+        return self._content_tokens(self._cut_additions(tokens_of(name)))[: READING.max_words]
 
     def _compute_phrase(self, tokens: tuple[Token, ...], references: tuple[str, ...]) -> NamePhrase:
         """Return the phrase of a name.
