@@ -71,6 +71,8 @@ class BoxReader:
         self._hints = UsdGeom.BBoxCache(time, _PURPOSES, useExtentsHint=True)
         self._xforms = UsdGeom.XformCache(time)
         self._shared: dict[tuple[int, ...], _SharedGeometry | None] = {}
+        self._extents: dict[int, list[list[float]] | None] = {}
+        """id of a record → its authored extent."""
         self._last_matrix: tuple[PrimRecord | None, _Matrix] = (None, np.eye(4))
 
     def read_parts(self, records: Sequence[PrimRecord]) -> list[Box]:
@@ -120,16 +122,23 @@ class BoxReader:
 
     def _box_of_extent(self, record: PrimRecord, matrix: _Matrix) -> Box | None:
         """Return the box of a gprim without rotation, from its authored extent: what OpenUSD returns, but faster."""
-        extent = None
-        if UsdGeom.Tokens.extent in record.authored.names:
-            extent = read_value(record.prim, UsdGeom.Tokens.extent, self.time, Vt.Vec3fArray)
-        if extent is None or len(extent) != 2:
+        extent = self._extent_of(record.source)
+        if extent is None:
             return self._box(self._geometry, record)
-        (x0, y0, z0), (x1, y1, z1) = np.asarray(extent).tolist()
+        (x0, y0, z0), (x1, y1, z1) = extent
         (sx, *_), (_, sy, *_), (_, _, sz, _), (x, y, z, _) = matrix.tolist()
         if not (_is_range((x0, y0, z0), (x1, y1, z1)) and sx > 0 and sy > 0 and sz > 0):
             return self._box(self._geometry, record)
         return self._finite_box((x0 * sx + x, y0 * sy + y, z0 * sz + z), (x1 * sx + x, y1 * sy + y, z1 * sz + z))
+
+    def _extent_of(self, record: PrimRecord) -> list[list[float]] | None:
+        """Return the smallest and the largest coordinates of the authored extent; None if it has none."""
+        if id(record) not in self._extents:
+            extent = None
+            if UsdGeom.Tokens.extent in record.authored.names:
+                extent = read_value(record.prim, UsdGeom.Tokens.extent, self.time, Vt.Vec3fArray)
+            self._extents[id(record)] = None if extent is None or len(extent) != 2 else np.asarray(extent).tolist()
+        return self._extents[id(record)]
 
     def _box_of_points(self, prim: Any, matrix: _Matrix) -> Box | None:
         return self._box_around(_points_of(prim, self.time) @ matrix[:3, :3] + matrix[3, :3])

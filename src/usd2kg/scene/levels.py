@@ -15,9 +15,11 @@ from usd2kg.scene.settings import LEVELS
 from usd2kg.scene.triangulation import read_mesh
 from usd2kg.shapes.box_pairs import overlapping_pairs
 
-__all__ = ["find_levels", "holds_others", "read_levels"]
+__all__ = ["LevelReader", "find_levels", "holds_others"]
 
 Array = NDArray[np.float64]
+_Mesh = tuple[Array, NDArray[np.int32]]
+"""Points and triangles."""
 
 
 def holds_others(boxes: Sequence[Box | None]) -> list[bool]:
@@ -44,33 +46,57 @@ def holds_others(boxes: Sequence[Box | None]) -> list[bool]:
     return [bool(value) for value in found]
 
 
-def read_levels(records: Sequence[PrimRecord], own_box: Box, boxes: BoxReader, frame: StageFrame) -> tuple[Box, ...]:
-    """Return the levels of all meshes of an object from the bottom up; see `find_levels`.
+class LevelReader:
+    """Reads the levels of objects; equal meshes are read once."""
 
-    Args:
-        records: the object's prim and the prims below it without nested objects.
-        own_box: the box of their geometry.
-        boxes: reads their transforms.
-        frame: units and up axis of the stage.
-    """
-    found = [level for record in records for level in _levels_of(record, own_box, boxes, frame)]
-    largest = sorted(found, key=lambda level: (-level.size[0] * level.size[1], level.lower))[: LEVELS.max_levels]
-    return tuple(sorted(largest, key=lambda level: (level.lower[2], level.lower)))
+    def __init__(self, boxes: BoxReader, frame: StageFrame) -> None:
+        """Create a reader.
 
+        Args:
+            boxes: reads transforms.
+            frame: units and up axis of the stage.
+        """
+        self._boxes = boxes
+        self._frame = frame
+        self._meshes: dict[int, _Mesh | None] = {}
+        """id of a record with copies → its mesh."""
 
-def _levels_of(record: PrimRecord, own_box: Box, boxes: BoxReader, frame: StageFrame) -> Iterator[Box]:
-    if not is_measurable(record) or not record.prim.IsA(UsdGeom.Mesh):
-        return
-    mesh = read_mesh(record.prim, boxes.time)
-    if mesh is None or len(mesh[0]) > LEVELS.max_points:
-        return
-    local, triangles = mesh
-    matrix = boxes.read_matrix(record)
-    points = points_to_metres(local @ matrix[:3, :3] + matrix[3, :3], frame)
-    # Mirroring inverts the winding.
-    triangles = triangles[:, ::-1] if np.linalg.det(matrix[:3, :3]) < 0 else triangles
-    width, depth, _ = own_box.size
-    yield from find_levels(points, triangles, width * depth)
+    def read(self, records: Sequence[PrimRecord], own_box: Box) -> tuple[Box, ...]:
+        """Return the levels of all meshes of an object from the bottom up; see `find_levels`.
+
+        Args:
+            records: the object's prim and the prims below it without nested objects.
+            own_box: the box of their geometry.
+        """
+        found = [level for record in records for level in self._levels_of(record, own_box)]
+        largest = sorted(found, key=lambda level: (-level.size[0] * level.size[1], level.lower))[: LEVELS.max_levels]
+        return tuple(sorted(largest, key=lambda level: (level.lower[2], level.lower)))
+
+    def _levels_of(self, record: PrimRecord, own_box: Box) -> Iterator[Box]:
+        mesh = self._mesh(record) if is_measurable(record) else None
+        if mesh is None:
+            return
+        local, triangles = mesh
+        matrix = self._boxes.read_matrix(record)
+        points = points_to_metres(local @ matrix[:3, :3] + matrix[3, :3], self._frame)
+        # Mirroring inverts the winding.
+        triangles = triangles[:, ::-1] if np.linalg.det(matrix[:3, :3]) < 0 else triangles
+        width, depth, _ = own_box.size
+        yield from find_levels(points, triangles, width * depth)
+
+    def _mesh(self, record: PrimRecord) -> _Mesh | None:
+        """Return the mesh of a record; None if it has none, or too many points."""
+        source = record.source
+        if source is record:
+            # Kept only for copies, since the meshes of a stage may not fit into memory.
+            return self._read_mesh(record)
+        if id(source) not in self._meshes:
+            self._meshes[id(source)] = self._read_mesh(source)
+        return self._meshes[id(source)]
+
+    def _read_mesh(self, record: PrimRecord) -> _Mesh | None:
+        mesh = read_mesh(record.prim, self._boxes.time) if record.prim.IsA(UsdGeom.Mesh) else None
+        return mesh if mesh is not None and len(mesh[0]) <= LEVELS.max_points else None
 
 
 def find_levels(points: Array, triangles: NDArray[Any], footprint: float) -> list[Box]:

@@ -179,11 +179,10 @@ class MaterialReader:
         self._ahead: dict[int, tuple[Any, ...]] = {}
         """id of a record → its material for each purpose, for prefetched records."""
 
-    def prefetch(self, records: Iterable[PrimRecord]) -> None:
-        """Compute the bindings of the prims that will be read next; OpenUSD computes many in parallel."""
-        shown = [
-            record for record in records if _shows_material(record) and not record.has_subsets and record.twin is None
-        ]
+    def prefetch(self, objects: Iterable[list[PrimRecord]]) -> None:
+        """Compute the bindings of the objects that will be read next; OpenUSD computes many in parallel."""
+        records = (record for records in objects if not _are_copies(records) for record in records)
+        shown = [record for record in records if _shows_material(record) and not record.has_subsets]
         prims = [record.prim for record in shown]
         by_purpose = (_bound_materials(prims, purpose) for purpose in self._purposes)
         self._ahead = dict(zip(map(id, shown), zip(*by_purpose, strict=True), strict=True))
@@ -194,12 +193,12 @@ class MaterialReader:
         Bindings are resolved by UsdShade (direct, inherited, collection-based, by strength) for the purposes `full` and
         `preview`, including geometry subsets. A binding to a missing material gives its name and path only.
         """
-        root, twin = records[0], records[0].twin
-        if twin is None or root.is_bound or twin.is_bound:
+        root = records[0]
+        if not _are_copies(records) or root.is_bound or root.source.is_bound:
             return self._resolve(records)
-        # Bindings within a prototype are the same in all instances.
-        key = tuple(id(record.twin) for record in records)
-        instance = _instance_above(root)
+        # Bindings within a prototype are the same in all instances, and those below a reference in all equal ones.
+        key = tuple(id(record.source) for record in records)
+        instance = _copy_above(root)
         if key not in self._of_instances:
             self._of_instances[key] = (instance, self._resolve(records))
         first, materials = self._of_instances[key]
@@ -249,10 +248,15 @@ def _shows_material(record: PrimRecord) -> bool:
     return record.is_gprim and not record.is_hidden and (record.is_bound or record.has_subsets)
 
 
-def _instance_above(record: PrimRecord) -> str:
-    """Return the path of the instance at or above a prim."""
+def _are_copies(records: list[PrimRecord]) -> bool:
+    """Return whether all prims of an object have equal ones elsewhere."""
+    return records[0].source is not records[0]
+
+
+def _copy_above(record: PrimRecord) -> str:
+    """Return the path of the outermost reference that is equal to another, or of the instance, at or above a prim."""
     above = record
-    while not above.is_instance and above.parent is not None:
+    while above.parent is not None and (above.parent.original if above.original else not above.is_instance):
         above = above.parent
     return above.path
 

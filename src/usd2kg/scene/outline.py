@@ -81,6 +81,9 @@ class PrimRecord:
     """(name, reason) of the child prims that were pruned; None if there are none."""
     twin: "PrimRecord | None" = None
     """The same prim in the first instance of the prototype; None outside of instances and in the first instance."""
+    original: "PrimRecord | None" = None
+    """The same prim below an equal reference that came first, with equal values; for the reference itself, only what is
+    below is equal. None for other prims."""
     first_instance: str | None = None
     """For an instance, the path of the first instance of the prototype."""
     gprim_count: int = 0
@@ -101,9 +104,14 @@ class PrimRecord:
     def is_asset(self) -> bool:
         """Whether it has a reference or payload, or is an instance; looked up on first use."""
         if self.known_as_asset is None:
-            prim = (self.twin or self).prim
+            prim = (self.twin or self.original or self).prim
             self.known_as_asset = self.is_instance or prim.HasAuthoredReferences() or prim.HasAuthoredPayloads()
         return self.known_as_asset
+
+    @property
+    def source(self) -> "PrimRecord":
+        """The prim whose geometry is read for it: equal geometry is read once."""
+        return self.twin or self.original or self
 
     @property
     def may_have_asset(self) -> bool:

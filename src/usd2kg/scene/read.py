@@ -25,7 +25,7 @@ from usd2kg.scene.instancers import count_copies, read_copies
 from usd2kg.scene.joints import read_joints
 from usd2kg.scene.label_lint import lint_labels
 from usd2kg.scene.label_reader import LabelReader
-from usd2kg.scene.levels import holds_others, read_levels
+from usd2kg.scene.levels import LevelReader, holds_others
 from usd2kg.scene.metadata import MaterialReader, clean_text, source_id, text_attributes, variant_selections
 from usd2kg.scene.model import NO_LABELS, Box, Diagnostic, Scene, SceneObject
 from usd2kg.scene.object_selection import ASKED_FOR, Selection, explain, select_objects
@@ -304,12 +304,13 @@ class _ObjectReader:
 
     def read_levels(self, found: list[_SelectedPrim], boxes: dict[str, _ObjectBoxes]) -> dict[str, tuple[Box, ...]]:
         """Return path → support levels, for the objects that may have others on an inner level."""
+        reader = LevelReader(self.boxes, self.frame)
         levels: dict[str, tuple[Box, ...]] = {}
         own = [boxes[entry.records[0].path].own for entry in found]
         for entry, box, is_holder in zip(found, own, holds_others(own), strict=True):
             if is_holder and box is not None:
                 try:
-                    levels[entry.records[0].path] = read_levels(entry.records, box, self.boxes, self.frame)
+                    levels[entry.records[0].path] = reader.read(entry.records, box)
                 except UNREADABLE as error:
                     self._note(
                         "geometry", entry.records[0], f"its faces cannot be read ({_why(error)}); it has no levels"
@@ -318,7 +319,7 @@ class _ObjectReader:
 
     def prefetch(self, found: list[_SelectedPrim]) -> None:
         """Compute the materials of the objects that are read next."""
-        self.materials.prefetch(record for entry in found if entry.is_read for record in entry.records)
+        self.materials.prefetch(entry.records for entry in found if entry.is_read)
 
     def read(self, entry: _SelectedPrim, boxes: _ObjectBoxes, levels: tuple[Box, ...]) -> SceneObject:
         """Return the object with everything the stage states about it."""

@@ -85,6 +85,8 @@ class SurfaceReader:
         self._shared: dict[int, _Triangles | None] = {}
         self._by_digest: dict[bytes, _Triangles | None] = {}
         self._points_left = SURFACES.max_total_points
+        self._last: tuple[Array, Array] = (np.eye(4), np.eye(4))
+        """The matrix to the stage that was read last, and that to the world."""
 
     def read(self, records: Sequence[PrimRecord]) -> Surface | None:
         """Return the surface of an object's visible gprims.
@@ -116,13 +118,16 @@ class SurfaceReader:
         return surface
 
     def _matrix(self, record: PrimRecord) -> Array:
-        matrix = np.eye(4)
         world = self._boxes.read_matrix(record)
-        matrix[:3, :3], matrix[3, :3] = world[:3, :3] @ self._to_world, world[3, :3] @ self._to_world
-        return matrix
+        # Most gprims of an object have its matrix, which the reader keeps.
+        if world is not self._last[0]:
+            matrix = np.eye(4)
+            matrix[:3, :3], matrix[3, :3] = world[:3, :3] @ self._to_world, world[3, :3] @ self._to_world
+            self._last = world, matrix
+        return self._last[1]
 
     def _triangles(self, record: PrimRecord) -> _Triangles | None:
-        source = record.twin or record
+        source = record.source
         if id(source) not in self._shared:
             self._shared[id(source)] = self._read_triangles(source.prim)
         return self._shared[id(source)]

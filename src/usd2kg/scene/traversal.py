@@ -11,6 +11,7 @@ from typing import Any, NamedTuple
 
 from pxr import Kind, Sdf, Tf, Usd, UsdGeom
 
+from usd2kg.scene.equal_references import EqualReferences
 from usd2kg.scene.instancers import is_endless
 from usd2kg.scene.metadata import text_names
 from usd2kg.scene.outline import Authored, JointLink, Outline, PrimRecord
@@ -28,6 +29,7 @@ _HIDDEN_PURPOSES = frozenset({UsdGeom.Tokens.guide, UsdGeom.Tokens.proxy})
 _TURNING_OPS = ("xformOp:rotate", "xformOp:orient", "xformOp:transform", "xformOp:shear")
 _BINDING = "material:binding"
 _SUBSET = "geometry subset"
+_PHYSICS = "physics"
 _INVISIBLE = "invisible"
 _RECORDED_METADATA = frozenset({"specifier", "typeName", "kind", "active", "instanceable", "apiSchemas"})
 """Metadata that other fields of a record hold."""
@@ -45,8 +47,8 @@ _REASON_BY_SCHEMA = (
     ("UsdSkelSkeleton", "skeleton rig"),
     ("UsdSkelAnimation", "skeleton rig"),
     ("UsdSkelBlendShape", "skeleton rig"),
-    ("UsdPhysicsScene", "physics"),
-    ("UsdPhysicsCollisionGroup", "physics"),
+    ("UsdPhysicsScene", _PHYSICS),
+    ("UsdPhysicsCollisionGroup", _PHYSICS),
     ("UsdRenderSettingsBase", "render settings"),
 )
 
@@ -86,6 +88,7 @@ class _Outliner:
         """Path of a prim → the point instancers at and below it; a cache."""
         self.labelled: set[Any] = set()
         """Paths of labelled prims in prototypes."""
+        self.references = EqualReferences(opened.stage, self.outline.labelled_prims, _FAULTS | {_PHYSICS})
         self.with_joints: dict[Any, bool] = {}
         """Path of the prototype → whether it contains joints, which are read for each instance."""
 
@@ -107,7 +110,7 @@ class _Outliner:
                 prims.PruneChildren()
                 continue
             entered[path] = record
-            if record.is_instancer or (record.is_instance and self._copy_first_instance(record)):
+            if record.is_instancer or self._copy_known_contents(record):
                 prims.PruneChildren()
         self.outline.records = list(self.outline.root.walk())[1:]
         _count_geometry(self.outline.records)
@@ -129,7 +132,7 @@ class _Outliner:
         authored = self._authored(prim, type_name, schemas)
         if traits.is_joint or (traits.may_be_joint and "physics:body1" in authored.names):
             self._add_joint(prim, type_name)
-            reason = "physics"
+            reason = _PHYSICS
         elif traits.reason is not None or self._is_invisible(prim, traits, authored):
             reason = traits.reason or _INVISIBLE
         # OpenUSD computes bounds of cameras and lights, but not of invisible prims.
@@ -227,14 +230,18 @@ class _Outliner:
             self.kinds[kind] = _standard_kind(kind)
         return self.kinds[kind]
 
-    def _copy_first_instance(self, root: PrimRecord) -> bool:
-        """Copy the records below the first instance of the same prototype; return whether this was possible."""
-        prototype = root.prim.GetPrototype().GetPath()
-        first = self.first_instances.setdefault(prototype, root)
-        root.first_instance = first.path
-        if first is root or first.is_hidden != root.is_hidden or self._holds_joints(prototype, first):
+    def _copy_known_contents(self, root: PrimRecord) -> bool:
+        """Copy the records below a prim with the same contents; return whether this was possible."""
+        if root.is_instance:
+            return self._copy_first_instance(root)
+        first = self.references.find(root)
+        if first is None:
             return False
-        root.twin = first
+        root.original = first
+        self._copy_contents(first, root)
+        return True
+
+    def _copy_contents(self, first: PrimRecord, root: PrimRecord) -> None:
         pending = [(first, root)]
         while pending:
             source, copy = pending.pop()
@@ -244,12 +251,22 @@ class _Outliner:
             for child in source.children:
                 self.outline.prim_count += 1
                 pending.append((child, _copy_below(child, copy)))
+
+    def _copy_first_instance(self, root: PrimRecord) -> bool:
+        """Copy the records below the first instance of the same prototype; return whether this was possible."""
+        prototype = root.prim.GetPrototype().GetPath()
+        first = self.first_instances.setdefault(prototype, root)
+        root.first_instance = first.path
+        if first is root or first.is_hidden != root.is_hidden or self._holds_joints(prototype, first):
+            return False
+        root.twin = first
+        self._copy_contents(first, root)
         return True
 
     def _holds_joints(self, prototype: Any, first: PrimRecord) -> bool:
         if prototype not in self.with_joints:
             reasons = {reason for record in first.walk() for _, reason in record.left_out or ()}
-            self.with_joints[prototype] = "physics" in reasons
+            self.with_joints[prototype] = _PHYSICS in reasons
         return self.with_joints[prototype]
 
 
@@ -262,7 +279,10 @@ def _copy_below(source: PrimRecord, parent: PrimRecord) -> PrimRecord:
     record.is_scope, record.is_instancer, record.is_instance = source.is_scope, source.is_instancer, source.is_instance
     record.is_body, record.has_mass = source.is_body, source.has_mass
     record.is_labelled, record.is_unresolved = source.is_labelled, source.is_unresolved
-    record.twin = source.twin or source
+    if parent.original is not None:
+        record.original = source
+    else:
+        record.twin = source.twin or source
     record.first_instance = source.first_instance
     _inherit(record)
     record.is_hidden = source.is_hidden
