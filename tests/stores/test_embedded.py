@@ -6,12 +6,13 @@ import sys
 import time
 from pathlib import Path
 
+import numpy as np
 import pyoxigraph as ox
 import pytest
 
 from usd2kg.errors import GraphError, StoreError
 from usd2kg.folder_lock import lock_exclusive, lock_shared
-from usd2kg.stores import EmbeddedStore, NamedGraph, open_graph, select_graphs
+from usd2kg.stores import EmbeddedStore, NamedGraph, open_graph, replacement, select_graphs
 from usd2kg.stores.named_graph import stored_quads
 from usd2kg.stores.pending import PENDING_NAME, write_pending
 from usd2kg.stores.store_limits import FolderLimits
@@ -71,11 +72,12 @@ def test_replaces_a_graph_completely(tmp_path: Path, small: NamedGraph, large: N
 KILLED = """
 import os, signal, sys
 from pathlib import Path
-from usd2kg.stores import EmbeddedStore, read_named_graph
+from usd2kg.stores import EmbeddedStore, read_named_graph, replacement
 graph = read_named_graph(Path(sys.argv[2]))
-def die(*_, **kept):
-    if not kept.get("missing_ok"): os.kill(os.getpid(), signal.SIGKILL)
-place = {"unnamed": (Path, "replace"), "named": (EmbeddedStore, "_replace"), "emptied": (EmbeddedStore, "_add"),
+def die(*given, **kept):
+    is_log = "LOG" in str(given[0])
+    if not (is_log or kept.get("missing_ok")): os.kill(os.getpid(), signal.SIGKILL)
+place = {"unnamed": (Path, "replace"), "named": (EmbeddedStore, "_finish"), "emptied": (replacement, "_add_missing"),
     "full": (Path, "unlink")}[sys.argv[3]]
 setattr(*place, die)
 EmbeddedStore(sys.argv[1]).load(graph)
@@ -83,10 +85,15 @@ EmbeddedStore(sys.argv[1]).load(graph)
 
 
 @pytest.mark.skipif(sys.platform == "win32", reason="needs POSIX signals")
+@pytest.mark.parametrize("is_alone", [True, False])
 @pytest.mark.parametrize("moment", ["unnamed", "named", "emptied", "full"])
-def test_the_next_reader_finishes_a_killed_load(tmp_path: Path, small: NamedGraph, large: NamedGraph, moment: str):
+def test_the_next_reader_finishes_a_killed_load(
+    tmp_path: Path, small: NamedGraph, large: NamedGraph, other: NamedGraph, moment: str, is_alone: bool
+):
     folder, file = tmp_path / "store", tmp_path / "k.nt"
     EmbeddedStore(folder).load(small)
+    if not is_alone:
+        EmbeddedStore(folder).load(other)
     ox.serialize(large.triples, str(file), format=ox.RdfFormat.N_TRIPLES)
     done = subprocess.run([sys.executable, "-c", KILLED, str(folder), str(file), moment], check=False)
     assert done.returncode == -signal.SIGKILL
@@ -95,8 +102,33 @@ def test_the_next_reader_finishes_a_killed_load(tmp_path: Path, small: NamedGrap
     # The load is committed when the pending file has its name.
     assert len(found) == (triples(small) if moment == "unnamed" else triples(large))
     EmbeddedStore(folder).load(large)
-    assert len(held(folder)) == triples(large)
+    assert len(held(folder)) == triples(large) + (0 if is_alone else triples(other))
     assert not list(folder.glob("usd2kg.pending*"))
+
+
+@pytest.mark.parametrize("is_alone", [True, False])
+@pytest.mark.parametrize("kept", [0, 30, 95, 100])
+@pytest.mark.parametrize("collides", [False, True])
+def test_a_graph_is_replaced_whatever_it_has_in_common_with_the_new_one(
+    tmp_path: Path, other: NamedGraph, kept: int, is_alone: bool, collides: bool, monkeypatch: pytest.MonkeyPatch
+):
+    if collides:
+        monkeypatch.setattr(replacement, "_hashes", lambda quads: np.zeros(len(quads), np.int64))
+    store = EmbeddedStore(tmp_path)
+    if not is_alone:
+        store.load(other)
+
+    def graph(start: int) -> NamedGraph:
+        node = ox.NamedNode
+        stated = (
+            ox.Triple(ox.BlankNode(f"b{i}"), node("urn:p"), ox.Literal(str(i))) for i in range(start, start + 100)
+        )
+        return NamedGraph("urn:g", (*stated, ox.Triple(node("urn:s"), node("urn:p"), ox.BlankNode("b50"))))
+
+    store.load(graph(0))
+    store.load(graph(100 - kept))
+    rest = set() if is_alone else set(map(str, stored_quads(other)))
+    assert held(tmp_path) == rest | set(map(str, stored_quads(graph(100 - kept))))
 
 
 KILLED_FIRST_LOAD = """

@@ -20,7 +20,7 @@ def fill_disk(monkeypatch: pytest.MonkeyPatch) -> None:
     def fail(*_: object) -> None:
         raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC))
 
-    for step in ("_replace", "_add"):
+    for step in ("_finish", "_add"):
         monkeypatch.setattr(EmbeddedStore, step, fail)
 
 
@@ -109,7 +109,7 @@ def test_an_error_of_another_kind_gives_up_no_load(
         raise OSError(errno.EIO, os.strerror(errno.EIO))
 
     with monkeypatch.context() as broken:
-        broken.setattr(EmbeddedStore, "_replace", fail)
+        broken.setattr(EmbeddedStore, "_finish", fail)
         with pytest.raises(StoreError, match="cannot be read or written"):
             store.remove(small.iri)
     assert (tmp_path / PENDING_NAME).exists()

@@ -23,6 +23,7 @@ from usd2kg.query.settings import CACHE
 from usd2kg.stores.named_graph import NamedGraph, stored_quads
 from usd2kg.stores.named_graphs import StoredGraph, list_graphs
 from usd2kg.stores.pending import PENDING_NAME, read_name, set_aside_damaged, write_pending
+from usd2kg.stores.replacement import replace_graph
 from usd2kg.stores.reserve import keep_reserve, release_reserve
 from usd2kg.stores.store_limits import FolderLimits
 
@@ -85,7 +86,7 @@ class EmbeddedStore:
             if store.contains_named_graph(node):
                 # Removing the old graph and adding the new one are two transactions.
                 write_pending(self._folder, node, stored_quads(graph))
-                self._replace(store, node, stored_quads(graph))
+                self._finish(store)
             else:
                 self._add(store, stored_quads(graph))
             keep_reserve(self._folder)
@@ -215,6 +216,7 @@ class EmbeddedStore:
                 leftover.unlink()
             store = self._open_store()
             if (self._folder / PENDING_NAME).exists() and not set_aside_damaged(self._folder):
+                logger.info("%s: finishes an interrupted load", self._folder)
                 self._finish(store)
             yield store
 
@@ -283,26 +285,16 @@ class EmbeddedStore:
         names = {path.name for path in self._folder.iterdir()}
         return not names or (LOCK_NAME in names and all(map(_STORE_FILES.fullmatch, names)))
 
-    def _finish(self, store: ox.Store) -> None:
-        """Move the pending graph into the store; idempotent."""
-        with (self._folder / PENDING_NAME).open("rb") as file:
-            node = read_name(file)
-            logger.info("%s: loads %s", self._folder, node)
-            # Parsing keeps blank node labels, so that repeating the load gives the same nodes.
-            self._replace(store, node, ox.parse(file, format=ox.RdfFormat.N_QUADS))
-
-    def _replace(self, store: ox.Store, node: ox.NamedNode, quads: Iterable[ox.Quad]) -> None:
-        """Replace a graph by the quads that its pending file contains, and delete that file."""
-        store.remove_graph(node)
-        self._add(store, quads)
-        (self._folder / PENDING_NAME).unlink()
-
     def _add(self, store: ox.Store, quads: Iterable[ox.Quad]) -> None:
         """Add all quads to the store, or none if the process dies."""
         # The engine adds them atomically. Its documentation does not guarantee this, so a test kills it at many points.
-        # The engine's own parser would rename the blank nodes.
         store.bulk_extend(quads)
         store.flush()
+
+    def _finish(self, store: ox.Store) -> None:
+        """Move the pending graph into the store and delete its file; idempotent."""
+        replace_graph(store, self._folder / PENDING_NAME)
+        (self._folder / PENDING_NAME).unlink()
 
 
 def _is_full(error: OSError) -> bool:
