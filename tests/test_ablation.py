@@ -27,7 +27,7 @@ def test_a_rule_is_off_within_the_context_only():
     matched = phrase_matching.PhraseMatcher._inverted_compounds
 
     def ground(name: str) -> str:
-        prediction = ObjectGrounder(load_home_tbox(), dict).predict("/Object", ObjectView(name=name)).prediction
+        prediction = ObjectGrounder(load_home_tbox(), dict).predict(ObjectView(name=name)).prediction
         return str(prediction.class_iri)
 
     assert ground("knife_table").endswith("TableKnife")
