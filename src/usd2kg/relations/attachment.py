@@ -138,7 +138,8 @@ def find_doubtful(
 def _hanging(boxed: BoxedObjects, classes: ClassMembership, stronger: StrongerRelations, rule: AttachedRule) -> Indices:
     """Return the objects that are on, in and part of nothing so far, and too high above the ground to stand on it."""
     is_mount = classes.are_in("mounts")[boxed.scene_index]
-    may_hang = stronger.is_free & (is_mount | ~classes.are_in("not_attached")[boxed.scene_index])
+    is_fixed = classes.are_in("not_attached") & ~classes.are_in("cases")
+    may_hang = stronger.is_free & (is_mount | ~is_fixed[boxed.scene_index])
     clearance = np.where(classes.are_in("standing")[boxed.scene_index], rule.max_plinth, rule.min_clearance)
     clearance[classes.are_in("hanging")[boxed.scene_index]] = 0.0
     targets = np.flatnonzero(may_hang)

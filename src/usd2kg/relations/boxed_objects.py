@@ -45,6 +45,21 @@ class ClassMembership:
         return np.array(is_in, np.bool_)[self._which]
 
     @cached_property
+    def are_drawers(self) -> Mask:
+        """Whether each object is a drawer, and not a cabinet by its name, such as a drawer cabinet."""
+        return self.are_in("not_laid") & ~self.are_in("cases")
+
+    @cached_property
+    def are_handles(self) -> Mask:
+        """Whether each object is a handle, and not a tool by its name, such as a crank puller."""
+        return self.are_in("handles") & ~self.are_in("tools")
+
+    @cached_property
+    def may_be_placed(self) -> Mask:
+        """Whether each object may be on or in another, which tools are by their name."""
+        return ~self.are_in("not_placed") | self.are_in("tools")
+
+    @cached_property
     def can_contain(self) -> Mask:
         """Whether each object is a container."""
         disposition = expand_curie(self._names.containment_disposition)
@@ -148,6 +163,14 @@ class BoxedObjects:
         starts = np.cumsum([0, *(len(boxes) for boxes in own)])
         lower, upper = corners_of([box for boxes in own for box in boxes if box is not None])
         return starts.astype(np.int64), lower, upper
+
+    @cached_property
+    def upright_volume(self) -> Array:
+        """Volume (n,) of the upright box around each object in its own directions, in cubic metres.
+
+        That of an open door is the same as that of a shut one.
+        """
+        return np.asarray(4 * self.footprints.half_sides.prod(axis=1) * self.size[:, 2])
 
     @cached_property
     def footprints(self) -> Footprints:

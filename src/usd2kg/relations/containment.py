@@ -53,8 +53,8 @@ def find_inside(boxed: BoxedObjects, classes: ClassMembership, wholes: Indices, 
         rules: the thresholds.
     """
     can_contain = classes.can_contain[boxed.scene_index]
-    is_drawer = classes.are_in("not_laid")[boxed.scene_index]
-    may_be_in = ~(classes.are_in("not_placed") | classes.are_in("not_contained"))[boxed.scene_index]
+    is_drawer = classes.are_drawers[boxed.scene_index]
+    may_be_in = (classes.may_be_placed & ~classes.are_in("not_contained"))[boxed.scene_index]
     has_parts = bool((wholes >= 0).any())
     is_open = can_contain & ~classes.are_in("closed")[boxed.scene_index]
     never = classes.are_in("not_containers") | classes.are_in("walls") | classes.are_in("not_neighbours")

@@ -113,25 +113,30 @@ def _object_at(path: str, number: dict[str, int]) -> int | None:
 
 
 def _fitted(scene: Scene, boxed: BoxedObjects, classes: ClassMembership, is_free: Mask, rule: PartOfRule) -> Links:
-    is_front, is_handle = classes.are_in("fronts")[boxed.scene_index], classes.are_in("handles")[boxed.scene_index]
-    is_body = (classes.are_in("bodies") | classes.are_in("frames"))[boxed.scene_index] & ~is_front & ~is_handle
-    is_drawer = classes.are_in("not_laid")[boxed.scene_index]
+    is_drawer, is_handle = classes.are_drawers[boxed.scene_index], classes.are_handles[boxed.scene_index]
+    is_case = classes.are_in("cases")[boxed.scene_index] & ~is_drawer
+    is_front = (classes.are_in("fronts")[boxed.scene_index] & ~is_case) | is_drawer
+    is_body = (classes.are_in("bodies") | classes.are_in("frames"))[boxed.scene_index] | is_case
+    is_body &= ~is_front & ~is_handle
     never = classes.are_in("not_wholes") | classes.are_in("not_neighbours")
     may_hold_drawers = ~(never[boxed.scene_index] | is_front | is_handle)
-    parts = np.flatnonzero((is_front | is_handle) & is_free[boxed.scene_index])
+    is_component = classes.are_in("components")[boxed.scene_index] & ~(is_front | is_handle | is_body)
+    parts = np.flatnonzero((is_front | is_handle | is_component) & is_free[boxed.scene_index])
     above = [obj.prim_path.rpartition("/")[0] for obj in boxed.objects]
     group = {path: index for index, path in enumerate(dict.fromkeys(above))}
     family = np.array([group[path] for path in above], np.int64)
     may_hold_drawers &= np.isin(family, family[parts[is_drawer[parts]]])
-    wholes = np.flatnonzero(is_body | is_front | may_hold_drawers)
+    wholes = np.flatnonzero(is_body | is_front | may_hold_drawers | is_component)
     lower, upper = boxed.lower[parts] - rule.max_gap, boxed.upper[parts] + rule.max_gap
     found = [(np.zeros(0, np.int64), np.zeros(0, np.int64))]
     for i, j in overlapping_pairs(lower, upper, (boxed.lower[wholes], boxed.upper[wholes])):
         part, whole = parts[i], wholes[j]
         is_in = is_drawer[part] & may_hold_drawers[whole] & (_share_within(boxed, part, whole) >= rule.min_slid_in)
         is_good = (part != whole) & (family[part] == family[whole])
-        is_good &= is_body[whole] | (is_handle[part] & is_front[whole]) | is_in
-        is_good &= boxed.volume[part] < boxed.volume[whole]
+        is_fitted = (is_front | is_handle)[part] & is_body[whole]
+        is_fitted |= is_handle[part] & is_front[whole]
+        is_good &= is_fitted | is_in | (is_component[part] & _are_covers(boxed, part, whole, rule))
+        is_good &= boxed.upright_volume[part] < boxed.upright_volume[whole]
         part, whole = part[is_good], whole[is_good]
         is_met = (box_gaps(boxed, part, whole) <= rule.max_gap).all(axis=1)
         found.append((part[is_met], whole[is_met]))
@@ -142,6 +147,18 @@ def _fitted(scene: Scene, boxed: BoxedObjects, classes: ClassMembership, is_free
 def _share_within(boxed: BoxedObjects, part: Indices, whole: Indices) -> Array:
     shared = np.clip(-box_gaps(boxed, part, whole), 0, None).prod(axis=1)
     return ratios(shared, boxed.volume[part])
+
+
+def _are_covers(boxed: BoxedObjects, part: Indices, whole: Indices, rule: PartOfRule) -> Mask:
+    """Return for each pair whether the part is a sheet that covers an upright face of the whole: a door by its form."""
+    gaps = box_gaps(boxed, part, whole)
+    shared = ratios(-gaps, np.maximum(boxed.size[part], boxed.size[whole]))
+    found = np.zeros(len(part), np.bool_)
+    for axis, across in ((0, 1), (1, 0)):
+        is_before = np.abs(gaps[:, axis]) <= rule.max_gap
+        is_thin = (boxed.size[part].argmin(axis=1) == axis) & (boxed.size[part, axis] < boxed.size[whole, axis])
+        found |= is_before & is_thin & (shared[:, [across, 2]] >= rule.min_covered).all(axis=1)
+    return found
 
 
 def _best_fit(

@@ -106,10 +106,14 @@ def find_support(
         container: index of the container of each object, -1 for none.
         rules: the thresholds.
     """
-    may_rest = is_loose & ~(classes.are_in("not_placed") | classes.are_in("not_laid"))[boxed.scene_index]
+    grounds = classes.are_in("grounds")[boxed.scene_index]
+    # A floor too small for a room, such as a sheet of cardboard, lies on the floor.
+    is_ground = grounds & (boxed.size[:, :2] >= rules.room.min_side).any(axis=1)
+    may_rest = (classes.may_be_placed & ~classes.are_drawers)[boxed.scene_index] | (grounds & ~is_ground)
+    may_rest &= is_loose
     can_support = ~classes.are_in("not_supporting")[boxed.scene_index]
     tolerance = np.clip(rules.on.gap_share * boxed.size[:, 2], rules.on.min_gap, rules.on.max_gap)
-    is_ground, hangs = (classes.are_in(name)[boxed.scene_index] for name in ("grounds", "hanging"))
+    hangs = classes.are_in("hanging")[boxed.scene_index]
     limits = _Limits(tolerance, is_ground, hangs, rules)
     around = _find_contacts(boxed, np.flatnonzero(may_rest), can_support, limits)
     near = select_rows(around, container[around.anchor] == container[around.target])

@@ -240,6 +240,7 @@ class PartOfRule(NamedTuple):
     fitted_rule: str
     max_gap: float
     min_slid_in: float
+    min_covered: float
 
 
 class ClassLists(NamedTuple):
@@ -247,6 +248,8 @@ class ClassLists(NamedTuple):
 
     not_placed: tuple[str, ...]
     not_laid: tuple[str, ...]
+    cases: tuple[str, ...]
+    tools: tuple[str, ...]
     not_supporting: tuple[str, ...]
     not_bearing: tuple[str, ...]
     grounds: tuple[str, ...]
