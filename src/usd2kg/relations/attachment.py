@@ -1,7 +1,6 @@
 """`attached-to`: what hangs from an object or is fixed to it, with nothing below."""
 
 from collections.abc import Sequence
-from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -10,6 +9,7 @@ from usd2kg.relations.array_records import concatenate_rows, first_of_each_group
 from usd2kg.relations.backing import are_between
 from usd2kg.relations.boxed_objects import BoxedObjects, ClassMembership
 from usd2kg.relations.distances import box_gaps, surface_distances
+from usd2kg.relations.holding import Mounts, are_carried_by_target, are_farther_than_holder, lead_to_mounts
 from usd2kg.relations.interlock import are_interlocked, held_at
 from usd2kg.relations.model import Links, margin_below, margin_score
 from usd2kg.relations.stronger import StrongerRelations
@@ -29,22 +29,6 @@ _HOOKED = -1.0
 """The same for an object that the target hangs from by a hook or a loop: nothing is nearer…"""
 _RESTING = -2.0
 """…but what the target rests on."""
-
-
-class _Mounts(NamedTuple):
-    """Pairs of an object without support and one that may hold it."""
-
-    target: Indices
-    anchor: Indices
-    gap: Array
-    limit: Array
-    """Largest gap, metres."""
-    hangs: Mask
-    """Whether the anchor is above the middle of the target."""
-    locks: Mask
-    """Whether the anchor goes through the target, which hangs from it rather than the other way round."""
-    rests: Mask
-    """Whether the target rests on the anchor, if nothing else holds it."""
 
 
 def find_attached(
@@ -93,12 +77,20 @@ def find_attached(
     pairs = select_rows(pairs._replace(gap=gap), gap <= pairs.limit)
     touches = pairs.locks & (pairs.gap <= rule.max_touch)
     pairs = pairs._replace(locks=touches & ~_are_closer_to_mounts(boxed, pairs, is_mount, rule))
+    at_mount = pairs.target[is_mount[pairs.anchor]]
     pairs = select_rows(pairs, ~_are_backed(boxed, pairs, is_mount, rule))
+    is_free = np.zeros(len(boxed), np.bool_)
+    is_free[targets] = True
+    is_free &= ~is_mount
+    pairs = select_rows(pairs, ~are_carried_by_target(pairs, is_free, is_mount, rule))
+    pairs = select_rows(pairs, ~are_farther_than_holder(boxed, pairs, is_free, is_mount, hangs, rule))
     if needs_mount:
         is_hooked = pairs.locks & ~np.isin(pairs.target, [] if hovering is None else hovering)
-        pairs = select_rows(pairs, np.isin(pairs.target, pairs.target[is_mount[pairs.anchor] | is_hooked]))
-    # What rests on something, as far as known, hangs from a mount or a hook or not at all, and only a hook hangs on it.
-    is_firm = pairs.locks | (is_mount[pairs.anchor] & ~is_doubtful[pairs.anchor])
+        pairs = select_rows(pairs, np.isin(pairs.target, np.concatenate([at_mount, pairs.target[is_hooked]])))
+    # What rests on something, as far as known, hangs from a mount, a hook or what leads to a mount, or not at all, and
+    # only a hook hangs on it.
+    is_firm = is_mount[pairs.anchor] | lead_to_mounts(pairs, is_free, is_mount, rule)
+    is_firm = pairs.locks | (is_firm & ~is_doubtful[pairs.anchor])
     pairs = select_rows(pairs, is_firm | ~(is_doubtful[pairs.target] | is_doubtful[pairs.anchor]))
     pairs = concatenate_rows([pairs, *(_resting(links.where(~hangs[links.target])) for links in doubtful)])
     best = _nearest_held(boxed, pairs, is_mount, rule)
@@ -146,10 +138,10 @@ def _hanging(boxed: BoxedObjects, classes: ClassMembership, stronger: StrongerRe
     return np.asarray(targets[boxed.lower[targets, 2] - _ground_below(boxed, targets, rule) >= clearance[targets]])
 
 
-def _resting(links: Links) -> _Mounts:
+def _resting(links: Links) -> Mounts:
     count = len(links.target)
     no, yes = np.zeros(count, np.bool_), np.ones(count, np.bool_)
-    return _Mounts(links.target, links.anchor, np.zeros(count), np.full(count, np.inf), no, no, yes)
+    return Mounts(links.target, links.anchor, np.zeros(count), np.full(count, np.inf), no, no, yes)
 
 
 def find_held_beside_support(
@@ -206,11 +198,11 @@ def _squares(boxed: BoxedObjects, chosen: Indices, side: float) -> Indices:
 
 def _near_pairs(
     boxed: BoxedObjects, targets: Indices, holders: Indices, is_mount: Mask, reach: Array, rule: AttachedRule
-) -> _Mounts:
+) -> Mounts:
     widest = np.maximum(reach, rule.max_contact)[:, None]
     lower, upper = boxed.lower - widest, boxed.upper + widest
     none, no = np.zeros(0, np.int64), np.zeros(0, np.bool_)
-    found = [_Mounts(none, none, np.zeros(0), np.zeros(0), no, no, no)]
+    found = [Mounts(none, none, np.zeros(0), np.zeros(0), no, no, no)]
     is_target = np.zeros(len(boxed), np.bool_)
     is_target[targets] = True
     others = boxed.lower[holders], boxed.upper[holders]
@@ -225,11 +217,11 @@ def _near_pairs(
         is_larger = boxed.volume[anchor] > boxed.volume[target]
         is_near &= (target != anchor) & (is_mount[anchor] | hangs | locks | is_larger)
         no = np.zeros(len(target), np.bool_)
-        found.append(select_rows(_Mounts(target, anchor, no.astype(np.float64), limit, hangs, locks, no), is_near))
+        found.append(select_rows(Mounts(target, anchor, no.astype(np.float64), limit, hangs, locks, no), is_near))
     return concatenate_rows(found)
 
 
-def _are_held_by_target(boxed: BoxedObjects, pairs: _Mounts, holder: Indices) -> Mask:
+def _are_held_by_target(boxed: BoxedObjects, pairs: Mounts, holder: Indices) -> Mask:
     """Return for each pair whether the anchor is nested below the target, or held by it by way of other objects."""
     here, found = holder[pairs.anchor], np.zeros(len(pairs.target), np.bool_)
     for _ in range(len(holder)):
@@ -243,14 +235,14 @@ def _are_held_by_target(boxed: BoxedObjects, pairs: _Mounts, holder: Indices) ->
     return np.asarray(found | np.array(nested, np.bool_))
 
 
-def _meet_below_middle(boxed: BoxedObjects, pairs: _Mounts, rule: AttachedRule) -> Mask:
+def _meet_below_middle(boxed: BoxedObjects, pairs: Mounts, rule: AttachedRule) -> Mask:
     """Return for each pair whether two upright faces meet, all below the middle of the target, which would tip over."""
     gaps = box_gaps(boxed, pairs.target, pairs.anchor)
     meet = (gaps[:, :2].max(axis=1) >= -rule.max_contact) & (gaps[:, 2] < 0)
     return np.asarray(meet & (boxed.upper[pairs.anchor, 2] < boxed.middle[pairs.target, 2]))
 
 
-def _lie_on_much_larger(boxed: BoxedObjects, pairs: _Mounts, rule: AttachedRule) -> Mask:
+def _lie_on_much_larger(boxed: BoxedObjects, pairs: Mounts, rule: AttachedRule) -> Mask:
     """Return for each pair whether the target lies flat on a much larger anchor, within its face, as a panel on a wall.
 
     A partition meets its wall at an edge, and a lintel is within the thickness of its wall.
@@ -265,7 +257,7 @@ def _lie_on_much_larger(boxed: BoxedObjects, pairs: _Mounts, rule: AttachedRule)
     return np.asarray(is_flat & is_larger)
 
 
-def _are_backed(boxed: BoxedObjects, pairs: _Mounts, is_mount: Mask, rule: AttachedRule) -> Mask:
+def _are_backed(boxed: BoxedObjects, pairs: Mounts, is_mount: Mask, rule: AttachedRule) -> Mask:
     """Return for each pair whether the anchor is a wall in front of which there is another anchor of the target."""
     is_apart = is_mount[pairs.anchor] & (pairs.gap > rule.max_contact)
     walls, others = np.flatnonzero(is_apart), np.flatnonzero(~is_mount[pairs.anchor])
@@ -279,7 +271,7 @@ def _are_backed(boxed: BoxedObjects, pairs: _Mounts, is_mount: Mask, rule: Attac
     return backed
 
 
-def _are_closer_to_mounts(boxed: BoxedObjects, pairs: _Mounts, is_mount: Mask, rule: AttachedRule) -> Mask:
+def _are_closer_to_mounts(boxed: BoxedObjects, pairs: Mounts, is_mount: Mask, rule: AttachedRule) -> Mask:
     """Return for each pair whether the target touches a wall or ceiling, but not the anchor: a board below a magnet."""
     touches = is_mount[pairs.anchor] & (pairs.gap <= rule.max_touch)
     is_at_mount = np.zeros(len(boxed), np.bool_)
@@ -290,7 +282,7 @@ def _are_closer_to_mounts(boxed: BoxedObjects, pairs: _Mounts, is_mount: Mask, r
 
 
 def _are_beside_unheld(
-    boxed: BoxedObjects, pairs: _Mounts, targets: Indices, is_mount: Mask, rule: AttachedRule
+    boxed: BoxedObjects, pairs: Mounts, targets: Indices, is_mount: Mask, rule: AttachedRule
 ) -> Mask:
     """Return for each pair whether the target is beside an object that nothing holds and that is not much larger.
 
@@ -316,7 +308,7 @@ def _are_beside_unheld(
     return dropped
 
 
-def _nearest_held(boxed: BoxedObjects, pairs: _Mounts, is_mount: Mask, rule: AttachedRule) -> _Mounts:
+def _nearest_held(boxed: BoxedObjects, pairs: Mounts, is_mount: Mask, rule: AttachedRule) -> Mounts:
     """Return the best anchor of each target, from what is held to what hangs from it.
 
     What the target hangs from by a hook comes before the wall behind, at least if that does not touch the target. A
@@ -348,7 +340,7 @@ def _nearest_held(boxed: BoxedObjects, pairs: _Mounts, is_mount: Mask, rule: Att
 
 
 def _held_more_closely(
-    boxed: BoxedObjects, pairs: _Mounts, first: Indices, held: Indices, distance: Array, margin: float
+    boxed: BoxedObjects, pairs: Mounts, first: Indices, held: Indices, distance: Array, margin: float
 ) -> Indices:
     """Return the pairs of `held` whose targets are closer to what is held than their best anchor, of `first`, is.
 
@@ -363,6 +355,6 @@ def _held_more_closely(
     return np.asarray(held[distance[held] <= nearest[desired[target]] + slack[target]])
 
 
-def _best(boxed: BoxedObjects, pairs: _Mounts, some: Indices, distance: Array) -> Indices:
+def _best(boxed: BoxedObjects, pairs: Mounts, some: Indices, distance: Array) -> Indices:
     keys = (boxed.rank[pairs.anchor[some]], rounded(distance[some]))
     return np.asarray(some[first_of_each_group(pairs.target[some], keys)])

@@ -116,6 +116,7 @@ class AttachedRule(NamedTuple):
     mount_preference: float
     min_bearing_ratio: float
     min_backed: float
+    min_weak_share: float
     min_borne: float
     min_clearance: float
     max_plinth: float

@@ -1,0 +1,83 @@
+"""What carries is held by the building without what it carries."""
+
+import numpy as np
+
+from tests.graph.records import thing
+from tests.relations.room_builder import FLOOR, Placed, artifact, relate
+from usd2kg.relations.holding_paths import find_holding_paths
+
+WALL: Placed = (thing("/wall", (-3, 3, 0), (6, 0.2, 2.5)), "Wall")
+BOARD = artifact("board", (-0.5, 2.974, 1.2), (1.0, 0.02, 1.0))
+"""6 mm off the wall."""
+
+
+def held(*placed: Placed) -> set[tuple[str, str, str]]:
+    found = relate(FLOOR, *placed, kinds=("on", "attached-to"))
+    return {(r.target[1:], r.kind, r.anchor[1:]) for r in found}
+
+
+class TestPegboards:
+    HOOK = artifact("hook", (0, 2.91, 2.0), (0.006, 0.068, 0.02))
+    """Sunk 4 mm into the board, above its middle."""
+
+    def test_a_board_carries_the_hook_that_is_stuck_in_it(self):
+        assert held(WALL, BOARD, self.HOOK) == {("board", "attached-to", "wall"), ("hook", "attached-to", "board")}
+
+    def test_a_hook_does_not_rest_on_what_hangs_from_it(self):
+        spanner = artifact("spanner", (-0.01, 2.93, 1.8), (0.026, 0.006, 0.205))
+        assert held(WALL, BOARD, self.HOOK, spanner) == {
+            ("board", "attached-to", "wall"),
+            ("hook", "attached-to", "board"),
+            ("spanner", "attached-to", "hook"),
+        }
+
+    def test_a_rack_carries_the_tool_that_goes_through_it(self):
+        rack = artifact("rack", (-0.2, 2.92, 1.5), (0.4, 0.056, 0.02))
+        tool = artifact("tool", (0, 2.93, 1.42), (0.03, 0.03, 0.19))
+        found = held(WALL, BOARD, rack, tool)
+        assert ("rack", "attached-to", "board") in found
+        assert {row for row in found if row[0] == "tool"} <= {("tool", "attached-to", "rack"), ("tool", "on", "rack")}
+
+
+class TestContactsAndWalls:
+    def test_a_valve_at_a_radiator_is_not_at_the_wall_behind(self):
+        radiator = artifact("radiator", (0, 2.9, 0.2), (1.0, 0.075, 0.6))
+        valve = artifact("valve", (1.005, 2.9, 0.5), (0.06, 0.047, 0.06))
+        assert ("valve", "attached-to", "radiator") in held(WALL, radiator, valve)
+
+    def test_a_wall_cupboard_beside_a_fridge_hangs_at_the_wall(self):
+        fridge = (thing("/fridge", (0, 2.4, 0), (0.6, 0.6, 2.0)), "Refrigerator")
+        cupboard = artifact("cupboard", (0.602, 2.6, 1.4), (0.6, 0.37, 0.6))
+        assert ("cupboard", "attached-to", "wall") in held(WALL, fridge, cupboard)
+
+    def test_of_two_cupboards_off_the_wall_neither_holds_the_other(self):
+        left = artifact("left", (0, 2.6, 1.4), (0.6, 0.37, 0.6))
+        right = artifact("right", (0.6, 2.6, 1.4), (0.6, 0.37, 0.6))
+        assert held(WALL, left, right) == {("left", "attached-to", "wall"), ("right", "attached-to", "wall")}
+
+
+def test_a_clamped_frame_carries_its_bell():
+    stand = (thing("/stand", (0, 0, 0), (0.7, 0.7, 1.54)), "DesignedArtifact")
+    frame = artifact("frame", (0.2, 0.6, 0.78), (0.9, 0.3, 0.82))
+    bell = artifact("bell", (1.08, 0.7, 1.5), (0.04, 0.04, 0.06))
+    assert held(stand, frame, bell) == {
+        ("stand", "on", "floor"),
+        ("frame", "attached-to", "stand"),
+        ("bell", "attached-to", "frame"),
+    }
+
+
+class TestPaths:
+    def test_the_shortest_way_leads_outwards(self):
+        # 0 is the wall, 1 the board, 2 a hook, 3 a tool on the hook.
+        target, anchor = np.array([1, 1, 2, 2, 3]), np.array([0, 2, 0, 1, 2])
+        gap = np.array([0.006, -0.004, 0.022, -0.004, 0.0])
+        paths = find_holding_paths(target, anchor, gap, np.array([False, True, True, True]))
+        assert paths.through.tolist() == [-1, 0, 1, 2]
+        assert np.allclose(paths.length, [0, 0.006, 0.006, 0.006], atol=1e-3)
+        assert paths.lead_through(np.array([3, 2, 1]), np.array([1, 3, 2])).tolist() == [True, False, False]
+
+    def test_what_hangs_from_each_other_only_is_held_by_nothing(self):
+        paths = find_holding_paths(np.array([0, 1]), np.array([1, 0]), np.zeros(2), np.array([True, True]))
+        assert np.isinf(paths.length).all()
+        assert paths.through.tolist() == [-1, -1]
