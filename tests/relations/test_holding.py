@@ -81,3 +81,37 @@ class TestPaths:
         paths = find_holding_paths(np.array([0, 1]), np.array([1, 0]), np.zeros(2), np.array([True, True]))
         assert np.isinf(paths.length).all()
         assert paths.through.tolist() == [-1, -1]
+
+
+CEILING: Placed = (thing("/ceiling", (-3, -3, 2.5), (6, 6, 0.2)), "Ceiling")
+
+
+class TestHangingUnderEachOther:
+    def test_a_lamp_hangs_on_a_chain_that_does_not_stand_on_it(self):
+        beam = artifact("beam", (-2, -0.1, 2.3), (4, 0.2, 0.2))
+        chain = artifact("chain", (-0.5, -0.005, 1.9), (0.01, 0.01, 0.402))
+        lamp = artifact("lamp", (-0.6, -0.08, 1.84), (1.2, 0.16, 0.062))
+        assert held(CEILING, beam, lamp, chain) == {
+            ("beam", "attached-to", "ceiling"),
+            ("chain", "attached-to", "beam"),
+            ("lamp", "attached-to", "chain"),
+        }
+
+    def test_a_hook_under_a_shelf_does_not_hover_over_the_mug_on_it(self):
+        shelf = artifact("shelf", (-0.7, 2.79, 1.42), (1.4, 0.21, 0.02))
+        hook = artifact("hook", (0, 2.85, 1.386), (0.005, 0.035, 0.036))
+        mug = artifact("mug", (-0.04, 2.83, 1.275), (0.11, 0.084, 0.125))
+        assert held(WALL, shelf, hook, mug) == {
+            ("shelf", "attached-to", "wall"),
+            ("hook", "attached-to", "shelf"),
+            ("mug", "attached-to", "hook"),
+        }
+
+
+def test_what_would_tip_off_its_support_hangs_at_the_wall_that_it_touches():
+    bench = (thing("/bench", (-1, 2.4, 0), (2, 0.58, 0.45)), "DesignedChair")
+    # 7 mm of its 24 mm are over the bench.
+    back = artifact("back", (-1, 2.973, 0.455), (2, 0.024, 0.36))
+    assert ("back", "attached-to", "wall") in held(WALL, bench, back)
+    forward = artifact("back", (-1, 2.94, 0.455), (2, 0.024, 0.36))
+    assert ("back", "on", "bench") in held(WALL, bench, forward)

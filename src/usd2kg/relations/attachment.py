@@ -9,7 +9,13 @@ from usd2kg.relations.array_records import concatenate_rows, first_of_each_group
 from usd2kg.relations.backing import are_between
 from usd2kg.relations.boxed_objects import BoxedObjects, ClassMembership
 from usd2kg.relations.distances import box_gaps, surface_distances
-from usd2kg.relations.holding import Mounts, are_carried_by_target, are_farther_than_holder, lead_to_mounts
+from usd2kg.relations.holding import (
+    Mounts,
+    are_carried_by_target,
+    are_closer_to_mounts,
+    are_farther_than_holder,
+    lead_to_mounts,
+)
 from usd2kg.relations.interlock import are_interlocked, held_at
 from usd2kg.relations.model import Links, margin_below, margin_score
 from usd2kg.relations.stronger import StrongerRelations
@@ -17,7 +23,7 @@ from usd2kg.relations.thresholds import AttachedRule
 from usd2kg.shapes import overlapping_pairs
 from usd2kg.shapes.ragged import ragged_indices
 
-__all__ = ["find_attached", "find_doubtful", "find_held_beside_support"]
+__all__ = ["find_attached", "find_doubtful", "find_held_at_mounts", "find_held_beside_support"]
 
 Array = NDArray[np.float64]
 Indices = NDArray[np.int64]
@@ -39,7 +45,7 @@ def find_attached(
     *,
     needs_mount: bool,
     doubtful: Sequence[Links] = (),
-    hovering: Indices | None = None,
+    hovering: Links | None = None,
 ) -> Links:
     """Return the `attached-to` links of objects that are on, in and part of nothing so far.
 
@@ -54,7 +60,7 @@ def find_attached(
         stronger: the relations found so far.
         rule: the thresholds.
         needs_mount: return only objects near a wall or ceiling, or on a hook with nothing below.
-        hovering: objects that are not far above something.
+        hovering: `on` links across a gap, which do not count as found so far.
         doubtful: `on` links that do not count as found so far, see `find_doubtful`.
     """
     is_mount = classes.are_in("mounts")[boxed.scene_index]
@@ -76,21 +82,28 @@ def find_attached(
     gap = surface_distances(boxed, pairs.target, pairs.anchor, pairs.limit)
     pairs = select_rows(pairs._replace(gap=gap), gap <= pairs.limit)
     touches = pairs.locks & (pairs.gap <= rule.max_touch)
-    pairs = pairs._replace(locks=touches & ~_are_closer_to_mounts(boxed, pairs, is_mount, rule))
-    at_mount = pairs.target[is_mount[pairs.anchor]]
-    pairs = select_rows(pairs, ~_are_backed(boxed, pairs, is_mount, rule))
     is_free = np.zeros(len(boxed), np.bool_)
     is_free[targets] = True
     is_free &= ~is_mount
+    pairs = pairs._replace(locks=touches & ~are_closer_to_mounts(pairs, is_free, is_mount, rule))
+    at_mount = pairs.target[is_mount[pairs.anchor]]
+    pairs = select_rows(pairs, ~_are_backed(boxed, pairs, is_mount, rule))
     pairs = select_rows(pairs, ~are_carried_by_target(pairs, is_free, is_mount, rule))
     pairs = select_rows(pairs, ~are_farther_than_holder(boxed, pairs, is_free, is_mount, hangs, rule))
     if needs_mount:
-        is_hooked = pairs.locks & ~np.isin(pairs.target, [] if hovering is None else hovering)
-        pairs = select_rows(pairs, np.isin(pairs.target, np.concatenate([at_mount, pairs.target[is_hooked]])))
+        hovers = [] if hovering is None else _target_of_unhooked(hovering, pairs, len(boxed))
+        is_hooked = pairs.locks & ~np.isin(pairs.target, hovers)
+        # What seems to rest, and what another object hooks on, hangs from what it touches.
+        leads = lead_to_mounts(pairs, is_free, is_mount, rule)
+        leads &= is_doubtful[pairs.target] | np.isin(pairs.target, pairs.anchor[pairs.locks])
+        kept = np.isin(pairs.target, np.concatenate([at_mount, pairs.target[is_hooked | leads]]))
+        kept |= _are_reversed(pairs, doubtful, len(boxed))
+        pairs = select_rows(pairs, kept)
     # What rests on something, as far as known, hangs from a mount, a hook or what leads to a mount, or not at all, and
     # only a hook hangs on it.
     is_firm = is_mount[pairs.anchor] | lead_to_mounts(pairs, is_free, is_mount, rule)
     is_firm = pairs.locks | (is_firm & ~is_doubtful[pairs.anchor])
+    is_firm |= pairs.hangs & _are_reversed(pairs, doubtful, len(boxed))
     pairs = select_rows(pairs, is_firm | ~(is_doubtful[pairs.target] | is_doubtful[pairs.anchor]))
     pairs = concatenate_rows([pairs, *(_resting(links.where(~hangs[links.target])) for links in doubtful)])
     best = _nearest_held(boxed, pairs, is_mount, rule)
@@ -127,15 +140,43 @@ def find_doubtful(
     return doubtful
 
 
+def find_held_at_mounts(boxed: BoxedObjects, classes: ClassMembership, targets: Indices, rule: AttachedRule) -> Mask:
+    """Return for each object whether it is one of the targets, not near the ground, and touches a wall or ceiling."""
+    is_mount = classes.are_in("mounts")[boxed.scene_index] & ~classes.are_in("not_mounts")[boxed.scene_index]
+    hanging = _high_enough(boxed, classes, targets[~is_mount[targets]], rule)
+    reach = np.where(is_mount, 0.0, rule.max_touch)
+    pairs = _near_pairs(boxed, hanging, np.flatnonzero(is_mount), is_mount, reach, rule)
+    gap = surface_distances(boxed, pairs.target, pairs.anchor, pairs.limit)
+    found = np.zeros(len(boxed), np.bool_)
+    found[pairs.target[gap <= rule.max_touch]] = True
+    return found
+
+
 def _hanging(boxed: BoxedObjects, classes: ClassMembership, stronger: StrongerRelations, rule: AttachedRule) -> Indices:
     """Return the objects that are on, in and part of nothing so far, and too high above the ground to stand on it."""
     is_mount = classes.are_in("mounts")[boxed.scene_index]
     is_fixed = classes.are_in("not_attached") & ~classes.are_in("cases")
     may_hang = stronger.is_free & (is_mount | ~is_fixed[boxed.scene_index])
+    return _high_enough(boxed, classes, np.flatnonzero(may_hang), rule)
+
+
+def _high_enough(boxed: BoxedObjects, classes: ClassMembership, targets: Indices, rule: AttachedRule) -> Indices:
+    """Return the targets that are too high above the ground to stand on it."""
     clearance = np.where(classes.are_in("standing")[boxed.scene_index], rule.max_plinth, rule.min_clearance)
     clearance[classes.are_in("hanging")[boxed.scene_index]] = 0.0
-    targets = np.flatnonzero(may_hang)
     return np.asarray(targets[boxed.lower[targets, 2] - _ground_below(boxed, targets, rule) >= clearance[targets]])
+
+
+def _are_reversed(pairs: Mounts, links: Sequence[Links], count: int) -> Mask:
+    """Return for each pair whether the anchor is linked to the target: it may hang from what seems to rest on it."""
+    keys = np.concatenate([np.zeros(0, np.int64), *(found.anchor * count + found.target for found in links)])
+    return np.isin(pairs.target * count + pairs.anchor, keys)
+
+
+def _target_of_unhooked(hovering: Links, pairs: Mounts, count: int) -> Indices:
+    """Return the targets of links whose anchors do not hang from them by a hook."""
+    hooked = (pairs.anchor * count + pairs.target)[pairs.locks]
+    return np.asarray(hovering.target[~np.isin(hovering.target * count + hovering.anchor, hooked)])
 
 
 def _resting(links: Links) -> Mounts:
@@ -269,16 +310,6 @@ def _are_backed(boxed: BoxedObjects, pairs: Mounts, is_mount: Mask, rule: Attach
     backed = np.zeros(len(pairs.target), np.bool_)
     backed[wall[is_behind]] = True
     return backed
-
-
-def _are_closer_to_mounts(boxed: BoxedObjects, pairs: Mounts, is_mount: Mask, rule: AttachedRule) -> Mask:
-    """Return for each pair whether the target touches a wall or ceiling, but not the anchor: a board below a magnet."""
-    touches = is_mount[pairs.anchor] & (pairs.gap <= rule.max_touch)
-    is_at_mount = np.zeros(len(boxed), np.bool_)
-    is_at_mount[pairs.target[touches]] = True
-    is_target = np.zeros(len(boxed), np.bool_)
-    is_target[pairs.target] = True
-    return np.asarray(is_at_mount[pairs.target] & is_target[pairs.anchor] & ~is_at_mount[pairs.anchor])
 
 
 def _are_beside_unheld(

@@ -18,7 +18,12 @@ from usd2kg.relations.adjacency import (
     measure_surface_distances,
 )
 from usd2kg.relations.array_records import select_rows
-from usd2kg.relations.attachment import find_attached, find_doubtful, find_held_beside_support
+from usd2kg.relations.attachment import (
+    find_attached,
+    find_doubtful,
+    find_held_at_mounts,
+    find_held_beside_support,
+)
 from usd2kg.relations.between import find_between
 from usd2kg.relations.boxed_objects import BoxedObjects, ClassMembership
 from usd2kg.relations.connections import (
@@ -39,7 +44,7 @@ from usd2kg.relations.plan_membership import find_plan_members
 from usd2kg.relations.room_membership import find_rooms, placed_in_rooms
 from usd2kg.relations.sides import find_sides
 from usd2kg.relations.stronger import StrongerRelations
-from usd2kg.relations.support import Support, find_hovering, find_propped, find_support
+from usd2kg.relations.support import Support, are_unbalanced, find_hovering, find_propped, find_support
 from usd2kg.scene import Scene
 from usd2kg.tracing import traced
 
@@ -94,6 +99,10 @@ class _Finder:
         stronger = StrongerRelations(self.boxed, containment, parts)
         support = find_support(self.boxed, self.classes, stronger.is_loose, containment.container, self.rules)
         resting = stronger.add_support(support.links)
+        # What would tip over and touches a wall hangs there.
+        tipping = resting[0].target[are_unbalanced(self.boxed, resting[0])]
+        is_at_wall = find_held_at_mounts(self.boxed, self.classes, np.unique(tipping), self.rules.attached)
+        resting = stronger.withdraw_support(resting, is_at_wall)
         # What is near a wall hangs there rather than hovering over what is below; the rest may hang from what hovers.
         is_doubtful = find_doubtful(self.boxed, self.classes, stronger, resting, self.rules.attached)
         doubtful = [links.where(is_doubtful[links.target]) for links in resting]
@@ -106,7 +115,7 @@ class _Finder:
             self.rules.attached,
             needs_mount=True,
             doubtful=doubtful,
-            hovering=hovering.target,
+            hovering=hovering,
         )
         stronger.add_attached(attached)
         stronger.add_support([links.where(~stronger.is_attached[links.target]) for links in doubtful])

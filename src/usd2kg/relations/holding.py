@@ -12,7 +12,7 @@ from usd2kg.relations.interlock import are_interlocked
 from usd2kg.relations.thresholds import AttachedRule
 from usd2kg.shapes.ragged import ragged_indices
 
-__all__ = ["Mounts", "are_carried_by_target", "are_farther_than_holder", "lead_to_mounts"]
+__all__ = ["Mounts", "are_carried_by_target", "are_closer_to_mounts", "are_farther_than_holder", "lead_to_mounts"]
 
 Array = NDArray[np.float64]
 Indices = NDArray[np.int64]
@@ -59,6 +59,21 @@ def are_carried_by_target(pairs: Mounts, is_free: Mask, is_mount: Mask, rule: At
     detour = _detours(pairs, paths, pairs.anchor[some], pairs.target[some])
     carried[some] = detour - paths.length[pairs.target[some]] >= rule.max_contact
     return np.asarray(carried)
+
+
+def are_closer_to_mounts(pairs: Mounts, is_free: Mask, is_mount: Mask, rule: AttachedRule) -> Mask:
+    """Return for each pair whether the target touches a wall or ceiling, but the anchor does not: a board its magnet.
+
+    The anchor may touch it by way of what it hangs from, as a hanger does.
+    """
+    touches = is_mount[pairs.anchor] & (pairs.gap <= rule.max_touch)
+    is_at_mount = np.zeros(len(is_free), np.bool_)
+    is_at_mount[pairs.target[touches]] = True
+    some = np.flatnonzero(is_at_mount[pairs.target] & is_free[pairs.anchor] & ~is_at_mount[pairs.anchor])
+    paths = _paths(pairs, is_free, is_mount, rule)
+    closer = np.zeros(len(pairs.target), np.bool_)
+    closer[some] = _detours(pairs, paths, pairs.anchor[some], pairs.target[some]) > rule.max_contact
+    return closer
 
 
 def _detours(pairs: Mounts, paths: HoldingPaths, start: Indices, other: Indices) -> Array:

@@ -23,7 +23,7 @@ from usd2kg.relations.thresholds import OnRule, RelationRules
 from usd2kg.scene import Box
 from usd2kg.shapes import overlapping_pairs
 
-__all__ = ["Support", "find_hovering", "find_propped", "find_support"]
+__all__ = ["Support", "are_unbalanced", "find_hovering", "find_propped", "find_support"]
 
 Array = NDArray[np.float64]
 Indices = NDArray[np.int64]
@@ -140,6 +140,13 @@ def find_hovering(boxed: BoxedObjects, near: _Contacts, is_left: Mask, rules: Re
     best = select_rows(near, first_of_each_group(near.target, keys))
     over = margin_above(best.ratio, rule.min_overlap_ratio)
     return _links(rule.rule, best, margin_score(margin_below(best.gap, rule.max_gap), over))
+
+
+def are_unbalanced(boxed: BoxedObjects, links: Links) -> Mask:
+    """Return for each `on` link whether the anchor is not below the centre of the target."""
+    middle = boxed.middle[links.target, :2]
+    lower, upper = boxed.lower[links.anchor, :2], boxed.upper[links.anchor, :2]
+    return np.asarray(((middle < lower) | (middle > upper)).any(axis=1))
 
 
 def find_propped(boxed: BoxedObjects, near: _Contacts, attached: Links, rules: RelationRules) -> Links:
