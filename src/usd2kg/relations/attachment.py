@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 from usd2kg.relations.array_records import concatenate_rows, first_of_each_group, rounded, select_rows
 from usd2kg.relations.backing import are_between
 from usd2kg.relations.boxed_objects import BoxedObjects, ClassMembership
-from usd2kg.relations.distances import box_gaps, surface_distances
+from usd2kg.relations.distances import box_gaps, exact_distances, surface_distances
 from usd2kg.relations.holding import (
     Mounts,
     are_carried_by_target,
@@ -81,6 +81,7 @@ def find_attached(
     pairs = select_rows(pairs, ~(is_beside & _meet_below_middle(boxed, pairs, rule)))
     gap = surface_distances(boxed, pairs.target, pairs.anchor, pairs.limit)
     pairs = select_rows(pairs._replace(gap=gap), gap <= pairs.limit)
+    pairs = _measured_exactly(boxed, pairs, is_mount)
     touches = pairs.locks & (pairs.gap <= rule.max_touch)
     is_free = np.zeros(len(boxed), np.bool_)
     is_free[targets] = True
@@ -91,7 +92,7 @@ def find_attached(
     pairs = select_rows(pairs, ~are_carried_by_target(pairs, is_free, is_mount, rule))
     pairs = select_rows(pairs, ~are_farther_than_holder(boxed, pairs, is_free, is_mount, hangs, rule))
     if needs_mount:
-        hovers = [] if hovering is None else _target_of_unhooked(hovering, pairs, len(boxed))
+        hovers = np.zeros(0, np.int64) if hovering is None else _target_of_unhooked(hovering, pairs, len(boxed))
         is_hooked = pairs.locks & ~np.isin(pairs.target, hovers)
         # What seems to rest, and what another object hooks on, hangs from what it touches.
         leads = lead_to_mounts(pairs, is_free, is_mount, rule)
@@ -165,6 +166,18 @@ def _high_enough(boxed: BoxedObjects, classes: ClassMembership, targets: Indices
     clearance = np.where(classes.are_in("standing")[boxed.scene_index], rule.max_plinth, rule.min_clearance)
     clearance[classes.are_in("hanging")[boxed.scene_index]] = 0.0
     return np.asarray(targets[boxed.lower[targets, 2] - _ground_below(boxed, targets, rule) >= clearance[targets]])
+
+
+def _measured_exactly(boxed: BoxedObjects, pairs: Mounts, is_mount: Mask) -> Mounts:
+    """Return the pairs within their limits by the exact distance of their surfaces: oblique ones may only seem to meet.
+
+    Walls and ceilings hold what is near, so that the boxes of their triangles will do.
+    """
+    some = np.flatnonzero(~is_mount[pairs.anchor] & (boxed.has_surface[pairs.target] | boxed.has_surface[pairs.anchor]))
+    gap = pairs.gap.copy()
+    exact = exact_distances(boxed, pairs.target[some], pairs.anchor[some], pairs.limit[some])
+    gap[some] = np.where(exact > 0, np.maximum(exact, gap[some]), gap[some])
+    return select_rows(pairs._replace(gap=gap), gap <= pairs.limit)
 
 
 def _are_reversed(pairs: Mounts, links: Sequence[Links], count: int) -> Mask:

@@ -5,9 +5,9 @@ from numpy.typing import NDArray
 
 from usd2kg.relations.boxed_objects import BoxedObjects
 from usd2kg.relations.settings import DISTANCE
-from usd2kg.shapes.mesh_distance import Solid, mesh_distance
+from usd2kg.shapes.mesh_distance import Solid, exact_distance, mesh_distance
 
-__all__ = ["box_gaps", "distances", "surface_distances"]
+__all__ = ["box_gaps", "distances", "exact_distances", "surface_distances"]
 
 Array = NDArray[np.float64]
 Indices = NDArray[np.int64]
@@ -101,6 +101,15 @@ def surface_distances(boxed: BoxedObjects, one: Indices, other: Indices, reach: 
     for pair in np.flatnonzero(is_mesh).tolist():
         found[pair] = mesh_distance(_solid(boxed, one[pair]), _solid(boxed, other[pair]), float(reach[pair]))
     return np.asarray(found)
+
+
+def exact_distances(boxed: BoxedObjects, one: Indices, other: Indices, reach: Array) -> Array:
+    """Return the distances between the surfaces of pairs of objects in metres, up to a reach per pair, else inf.
+
+    0 where they meet. Objects without a surface are boxes.
+    """
+    ends = zip(one.tolist(), other.tolist(), reach.tolist(), strict=True)
+    return np.array([exact_distance(_solid(boxed, i), _solid(boxed, j), limit) for i, j, limit in ends], np.float64)
 
 
 def _solid(boxed: BoxedObjects, index: int) -> Solid:

@@ -6,8 +6,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from usd2kg.shapes.surface import Surface
+from usd2kg.shapes.triangle_distance import least_triangle_distance
 
-__all__ = ["Solid", "mesh_distance"]
+__all__ = ["Solid", "exact_distance", "mesh_distance"]
 
 Array = NDArray[np.float64]
 
@@ -18,6 +19,10 @@ _SPREAD = np.sum([(np.arange(1024) >> bit & 1) << 3 * bit for bit in range(10)],
 """10-bit number → its bits at a distance of three."""
 _BLOCK = 64
 """Triangles that are compared at once."""
+_CHUNK = 1 << 8
+"""Pairs of triangles whose exact distance is measured first; then twice as many."""
+_MAX_PAIRS = 1 << 22
+"""Pairs of triangles beyond which their exact distance is not measured; bounds memory."""
 
 
 class Solid(NamedTuple):
@@ -45,6 +50,50 @@ def mesh_distance(one: Solid, other: Solid, reach: float) -> float:
     if distance > reach:
         return np.inf
     return distance if distance > 0 else -_depth(one, other, near)
+
+
+def exact_distance(one: Solid, other: Solid, reach: float) -> float:
+    """Return the distance between the surfaces of two objects in metres, inf beyond `reach`; 0 where they meet.
+
+    Triangles are compared in the order of the distance of their boxes. Of more than `_MAX_PAIRS` pairs within reach,
+    the distance of the boxes of the nearest counts.
+    """
+    corners = _near_each_other(_near_triangles(one, other, reach), _near_triangles(other, one, reach), reach)
+    (low, high), (other_low, other_high) = ((some.min(axis=1).T, some.max(axis=1).T) for some in corners)
+    if len(corners[0]) * len(corners[1]) > _MAX_PAIRS:
+        return mesh_distance(one, other, reach)
+    bounds = _box_distances(low, high, other_low, other_high).ravel()
+    order = np.flatnonzero(bounds <= reach)
+    order = order[np.argsort(bounds[order], kind="stable")]
+    nearest, start, count = np.inf, 0, _CHUNK
+    while start < len(order) and bounds[order[start]] < nearest:
+        some = order[start : start + count]
+        start, count = start + count, 2 * count
+        i, j = np.divmod(some, len(corners[1]))
+        nearest = min(nearest, least_triangle_distance(corners[0][i], corners[1][j], min(nearest, reach)))
+    return nearest if nearest <= reach else np.inf
+
+
+def _near_triangles(solid: Solid, other: Solid, reach: float) -> Array:
+    """Return the triangles (n, 3, 3) whose boxes are within reach of the other object's box."""
+    if solid.surface is None:
+        ends = np.stack([solid.lower, solid.upper])
+        corners = np.array([[ends[i >> 2 & 1, 0], ends[i >> 1 & 1, 1], ends[i & 1, 2]] for i in range(8)])[_BOX]
+    else:
+        corners = solid.surface.corners
+    low, high = corners.min(axis=1), corners.max(axis=1)
+    return np.asarray(corners[((low <= other.upper + reach) & (high >= other.lower - reach)).all(axis=1)])
+
+
+def _near_each_other(one: Array, other: Array, reach: float) -> tuple[Array, Array]:
+    """Return the triangles of each that are within reach of the box around the triangles of the other."""
+    if not len(one) or not len(other):
+        return one[:0], other[:0]
+    low, high = one.min(axis=(0, 1)) - reach, one.max(axis=(0, 1)) + reach
+    other_low, other_high = other.min(axis=(0, 1)) - reach, other.max(axis=(0, 1)) + reach
+    is_near = ((one.min(axis=1) <= other_high) & (one.max(axis=1) >= other_low)).all(axis=1)
+    other_is_near = ((other.min(axis=1) <= high) & (other.max(axis=1) >= low)).all(axis=1)
+    return one[is_near], other[other_is_near]
 
 
 class _Boxes(NamedTuple):
