@@ -4,6 +4,7 @@ import numpy as np
 
 from tests.graph.records import thing
 from tests.relations.room_builder import FLOOR, Placed, artifact, relate
+from tests.shapes.solids import boxes
 from usd2kg.relations.holding_paths import find_holding_paths
 
 WALL: Placed = (thing("/wall", (-3, 3, 0), (6, 0.2, 2.5)), "Wall")
@@ -115,3 +116,33 @@ def test_what_would_tip_off_its_support_hangs_at_the_wall_that_it_touches():
     assert ("back", "attached-to", "wall") in held(WALL, bench, back)
     forward = artifact("back", (-1, 2.94, 0.455), (2, 0.024, 0.36))
     assert ("back", "on", "bench") in held(WALL, bench, forward)
+
+
+class TestDraped:
+    TABLE = (thing("/table", (0, 0, 0), (1, 1, 0.7)), "Table")
+
+    def test_a_cloth_that_hangs_over_the_edges_of_a_table_is_on_it(self):
+        hems = [
+            ((-0.02, -0.02, 0.55), (1.02, -0.01, 0.705)),
+            ((-0.02, 1.01, 0.55), (1.02, 1.02, 0.705)),
+            ((-0.02, -0.02, 0.55), (-0.01, 1.02, 0.705)),
+            ((1.01, -0.02, 0.55), (1.02, 1.02, 0.705)),
+        ]
+        cloth = boxes(((-0.02, -0.02, 0.701), (1.02, 1.02, 0.705)), *hems)
+        placed = artifact("cloth", (-0.02, -0.02, 0.55), (1.04, 1.04, 0.155))
+        table = boxes(((0, 0, 0.66), (1, 1, 0.7)), ((0.45, 0.45, 0), (0.55, 0.55, 0.66)))
+        surfaces = {"/cloth": cloth, "/table": table}
+        found = relate(FLOOR, self.TABLE, placed, kinds=("on", "attached-to"), surfaces=surfaces)
+        assert ("/cloth", "on", "/table") in {(r.target, r.kind, r.anchor) for r in found}
+
+    def test_a_towel_over_a_rail_is_attached_to_it(self):
+        rail = artifact("rail", (0, 2.9, 1.2), (0.6, 0.1, 0.02))
+        bar = boxes(((0, 2.9, 1.2), (0.6, 2.93, 1.22)), ((0, 2.9, 1.2), (0.02, 3.0, 1.22)))
+        towel = boxes(
+            ((0.1, 2.88, 1.221), (0.5, 2.95, 1.225)),
+            ((0.1, 2.88, 0.6), (0.5, 2.89, 1.225)),
+            ((0.1, 2.94, 0.6), (0.5, 2.95, 1.195)),
+        )
+        placed = artifact("towel", (0.1, 2.88, 0.6), (0.4, 0.07, 0.625))
+        found = relate(FLOOR, WALL, rail, placed, kinds=("on", "attached-to"), surfaces={"/towel": towel, "/rail": bar})
+        assert ("/towel", "on", "/rail") not in {(r.target, r.kind, r.anchor) for r in found}

@@ -176,10 +176,21 @@ def _find_contacts(boxed: BoxedObjects, targets: Indices, can_support: Mask, lim
     is_good = (
         (found.anchor != found.target)
         # The underside of a supporter is below the target's bottom; that of an object beside it is not.
-        & (found.lower[:, 2] < boxed.lower[found.target, 2] - _ROUNDING)
+        & ((found.lower[:, 2] < boxed.lower[found.target, 2] - _ROUNDING) | _are_draped(boxed, found, limits.rules))
         & ~(limits.is_ground[found.anchor] & limits.hangs[found.target])
     )
     return select_rows(found, is_good)
+
+
+def _are_draped(boxed: BoxedObjects, contacts: _Contacts, rules: RelationRules) -> Mask:
+    """Return for each pair whether the target lies over the anchor like a cloth over a table or a helmet over a ball.
+
+    What supports it is wider than it reaches down beside it; a towel over a rail hangs.
+    """
+    level = contacts.upper[:, 2] + contacts.gap
+    depth = level - boxed.lower[contacts.target, 2]
+    is_wide = (depth > rules.on.max_sink) & (contacts.area >= depth**2) & (contacts.lower[:, 2] < level - _ROUNDING)
+    return np.asarray(is_wide & _are_balanced(boxed, contacts))
 
 
 def _box_tops(boxed: BoxedObjects, can_support: Mask, rules: RelationRules) -> _Tops:
