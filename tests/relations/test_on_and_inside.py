@@ -10,6 +10,7 @@ import pytest
 from tests.graph.records import box_at, related, thing
 from tests.grounding.records import make_object
 from tests.relations.room_builder import FLOOR, HAIR, RULES, TABLE, Placed, artifact, cup, home, relate
+from tests.shapes.solids import boxes
 from usd2kg.ontology import TBox
 from usd2kg.scene import Box
 
@@ -460,3 +461,30 @@ def test_three_thousand_objects_are_fast():
     assert len(relations) == 3000
     assert {r.anchor for r in relations if r.target.startswith("/table")} == {"/floor"}
     assert all(r.anchor == r.target.replace("cup", "table")[: -len("_0")] for r in relations if "cup" in r.target)
+
+
+class TestPlants:
+    """A pot with soil 4 cm below its rim."""
+
+    POT = (thing("/pot", (0, 0, 0), (0.2, 0.2, 0.2)), "Pot")
+    SURFACE = boxes(
+        ((0, 0, 0), (0.2, 0.2, 0.16)),
+        ((0, 0, 0.16), (0.02, 0.2, 0.2)),
+        ((0.18, 0, 0.16), (0.2, 0.2, 0.2)),
+        ((0, 0, 0.16), (0.2, 0.02, 0.2)),
+        ((0, 0.18, 0.16), (0.2, 0.2, 0.2)),
+    )
+
+    @pytest.mark.parametrize(("depth", "is_in"), [(0.05, True), (0.02, False)])
+    def test_a_plant_broader_than_its_pot_is_in_it(self, depth: float, is_in: bool):
+        stem = box_at((0.09, 0.09, 0.2 - depth), (0.02, 0.02, 0.2))
+        crown = box_at((-0.02, -0.02, 0.4 - depth), (0.24, 0.24, 0.2))
+        plant = artifact("plant", (-0.02, -0.02, 0.2 - depth), (0.24, 0.24, 0.4), part_boxes=(stem, crown))
+        shape = boxes(*((box.lower, box.upper) for box in (stem, crown)))
+        found = relate(FLOOR, self.POT, plant, surfaces={"/pot": self.SURFACE, "/plant": shape})
+        assert (("/plant", "inside", "/pot") in {(r.target, r.kind, r.anchor) for r in found}) == is_in
+
+    def test_a_lid_as_broad_as_the_pot_is_not_in_it(self):
+        lid = artifact("lid", (-0.01, -0.01, 0.17), (0.22, 0.22, 0.2))
+        found = relate(FLOOR, self.POT, lid, surfaces={"/pot": self.SURFACE})
+        assert ("/lid", "inside", "/pot") not in {(r.target, r.kind, r.anchor) for r in found}

@@ -138,21 +138,29 @@ def _standing(boxed: BoxedObjects, target: Indices, anchor: Indices, rule: Stand
     over, depth = shares[:, 0] * shares[:, 1], shares[:, 2]
     above_floor = boxed.lower[target, 2] - boxed.lower[anchor, 2]
     least = np.where(above_floor > rule.same_level, rule.min_overlap_ratio, rule.min_level_overlap_ratio)
+    is_root = boxed.foot_area[target] <= rule.max_root_ratio * boxed.area[anchor]
+    is_root &= boxed.has_surface[anchor] & (depth < rule.min_depth_share)
+    least_depth = np.where(is_root, rule.min_rooted_share, rule.min_depth_share)
     is_good = (
         (boxed.upper[target, 2] > boxed.upper[anchor, 2])
         & (above_floor >= -rule.same_level)
-        & (depth >= rule.min_depth_share)
+        & (depth >= least_depth)
         & (over >= least)
         & (boxed.area[target] <= rule.max_area_ratio * boxed.area[anchor])
     )
-    clear = margin_score(margin_above(over, least), margin_above(depth, rule.min_depth_share))
+    clear = margin_score(margin_above(over, least), margin_above(depth, least_depth))
     no = np.zeros(len(target), np.bool_)
     return select_rows(_ContainmentPairs(target, anchor, over * depth, clear, ~no, no), is_good)
 
 
 def _are_lids(boxed: BoxedObjects, pairs: _ContainmentPairs) -> Mask:
-    """Return for each pair whether the target is broader than the anchor and in its upper half: a lid over a box."""
-    is_broader = (boxed.size[pairs.target, :2] > boxed.size[pairs.anchor, :2]).all(axis=1)
+    """Return for each pair whether the target is broader than the anchor and in its upper half: a lid over a box.
+
+    A plant is broader than its pot, but its stem is not.
+    """
+    lower, upper = boxed.feet
+    feet = (upper - lower)[pairs.target, :2]
+    is_broader = (feet > boxed.size[pairs.anchor, :2]).all(axis=1)
     return np.asarray(is_broader & (boxed.lower[pairs.target, 2] > boxed.middle[pairs.anchor, 2]))
 
 
@@ -181,6 +189,9 @@ def _surfaces_agree(
     is_around |= is_deep & (found.below >= rule.min_surrounded) & (found.beside >= rule.min_walled)
     is_around &= found.buried <= rule.max_buried
     stands = (found.beside >= rules.standing_in.min_beside) | (found.caged >= rule.min_caged)
+    is_walled = (found.beside >= rule.min_walled) & (found.below >= rule.min_surrounded)
+    depth_share = _shares(boxed, some.target, some.anchor)[:, 2]
+    stands &= is_walled | (depth_share >= rules.standing_in.min_depth_share)
     agrees[known] = np.where(some.sticks_out, stands, np.where(some.is_surrounded, is_around, is_in))
     return agrees
 

@@ -97,6 +97,8 @@ class StandingInRule(NamedTuple):
     rule: str
     min_depth_share: float
     min_beside: float
+    min_rooted_share: float
+    max_root_ratio: float
     min_overlap_ratio: float
     min_level_overlap_ratio: float
     same_level: float
