@@ -10,6 +10,7 @@ are the right singular vectors times the square roots of the singular values. Ru
 
 import re
 from collections import Counter
+from collections.abc import Iterable, Mapping
 
 import numpy as np
 from scipy.sparse import csr_matrix, diags
@@ -37,7 +38,10 @@ EMPTY_WORDS = frozenset(
 
 def main() -> None:
     """Fit and write."""
-    documents = count_words(load_taxonomy())
+    taxonomy = load_taxonomy()
+    categories = invert_categories(taxonomy)
+    senses_of_nouns = {sense.synset for lemma in taxonomy.lemmas for sense in taxonomy.senses(lemma)[:SENSES]}
+    documents = [count_words(synset, taxonomy, categories) for synset in sorted(senses_of_nouns)]
     senses = Counter(word for counts in documents for word in counts)
     words = sorted(word for word, count in senses.items() if count >= MIN_SENSES)
     columns = {word: column for column, word in enumerate(words)}
@@ -64,24 +68,19 @@ def main() -> None:
     print(f"{path}: {len(words):,} words of {len(documents):,} senses, {len(content):,} bytes")
 
 
-def count_words(taxonomy: Taxonomy) -> list[dict[str, float]]:
-    """Return word → weight for each sense of a noun."""
-    categories = invert_categories(taxonomy)
-    senses = {sense.synset for lemma in taxonomy.lemmas for sense in taxonomy.senses(lemma)[:SENSES]}
-    documents = []
-    for synset in sorted(senses):
-        weights = dict.fromkeys(split_words(taxonomy.label(synset), taxonomy), LABEL_WEIGHT)
-        for up, steps in taxonomy.walk_up(synset):
-            if steps > MAX_STEPS:
-                continue
-            factor = STEP_FACTOR**steps
-            for word in split_words(taxonomy.label(up), taxonomy):
-                weights[word] = max(weights.get(word, 0.0), factor * ABOVE_WEIGHT)
-            for category in categories.get(up, ()):
-                for word in split_words(category, taxonomy):
-                    weights[word] = weights.get(word, 0.0) + factor * CATEGORY_WEIGHT
-        documents.append(weights)
-    return documents
+def count_words(synset: int, taxonomy: Taxonomy, categories: Mapping[int, Iterable[str]]) -> dict[str, float]:
+    """Return word → weight for a sense of a noun."""
+    weights = dict.fromkeys(split_words(taxonomy.label(synset), taxonomy), LABEL_WEIGHT)
+    for up, steps in taxonomy.walk_up(synset):
+        if steps > MAX_STEPS:
+            continue
+        factor = STEP_FACTOR**steps
+        for word in split_words(taxonomy.label(up), taxonomy):
+            weights[word] = max(weights.get(word, 0.0), factor * ABOVE_WEIGHT)
+        for category in categories.get(up, ()):
+            for word in split_words(category, taxonomy):
+                weights[word] = weights.get(word, 0.0) + factor * CATEGORY_WEIGHT
+    return weights
 
 
 def split_words(text: str, taxonomy: Taxonomy) -> set[str]:

@@ -39,8 +39,14 @@ def test_words_for_the_same_thing_are_near(word: str, near: str, far: str):
 
 def test_a_sense_has_the_words_of_its_hypernyms_and_of_their_categories():
     taxonomy = load_taxonomy()
-    counted = count_words(taxonomy)
-    assert any({"salad", "bowl", "dish"} <= counts.keys() for counts in counted)
+    bowl = taxonomy.senses("bowl")[0].synset
+    vessel = taxonomy.above(bowl)[0]
+    words = count_words(bowl, taxonomy, {bowl: ("mixing bowl",), vessel: ("serving vessel",)})
+    # A label weighs 3, the label of a hypernym 2, a category 0.5, all times 0.7 a step.
+    assert words["bowl"] == pytest.approx(3.0 + 0.5)
+    assert words["mixing"] == pytest.approx(0.5)
+    assert words["vessel"] == pytest.approx(0.7 * 2.0 + 0.7 * 0.5)
+    assert words["serving"] == pytest.approx(0.7 * 0.5)
 
 
 def test_a_compound_without_spaces_has_no_words():
