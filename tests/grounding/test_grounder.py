@@ -3,6 +3,8 @@
 Which class single names are grounded to is scored in `regression.csv`.
 """
 
+import os
+import sys
 from collections.abc import Mapping
 from dataclasses import replace
 
@@ -329,3 +331,14 @@ class TestCopies:
             _make_object_grounder.cache_clear()
             (alone,) = LexicalGrounder().score_views([view], home_tbox)
             assert alone.prediction == found.prediction
+
+    @pytest.mark.skipif(sys.platform != "linux", reason="other systems do not fork safely")
+    def test_two_processes_give_the_predictions_of_one(self, home_tbox: TBox, monkeypatch: pytest.MonkeyPatch):
+        names = [*self.NAMES, "Mesh_07", "lamp"]
+        paths = [f"/World/Flat_{flat}/Kitchen/{name}_{flat}" for flat in range(2) for name in names]
+        scene = make_scene(*(sized(path, (0.1 * at, 0.5, 1.0)) for at, path in enumerate(paths, 1)))
+        views = [(obj.prim_path, view) for obj, view in view_objects(scene)]
+        alone = LexicalGrounder().ground_views(views, home_tbox)
+        monkeypatch.setattr("usd2kg.grounding.lexical.grounder._MANY_OBJECTS", 2)
+        monkeypatch.setattr(os, "sched_getaffinity", lambda _: {0, 1}, raising=False)
+        assert LexicalGrounder().ground_views(views, home_tbox) == alone

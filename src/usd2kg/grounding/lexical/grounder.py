@@ -7,6 +7,7 @@ Where the name is not clear it adds the evidence of assets, documentation, parts
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from functools import lru_cache
+from itertools import chain
 from typing import TYPE_CHECKING
 
 from usd2kg.garbage import paused_collection
@@ -20,12 +21,16 @@ from usd2kg.grounding.lexical.scored_view import ScoredView
 from usd2kg.grounding.model import Prediction, Status
 from usd2kg.ontology import ClassIRI, TBox
 from usd2kg.table_cache import NO_CACHE, open_table_cache
+from usd2kg.two_processes import compute_in_halves
 
 if TYPE_CHECKING:
     from usd2kg.grounding.lexical.alignment.alignment_file import AlignmentFile
     from usd2kg.grounding.lexical.alignment.alignment_rows import AlignmentRow
 
 __all__ = ["LexicalGrounder"]
+
+_MANY_OBJECTS = 20_000
+"""Objects from which a second process saves seconds."""
 
 
 class LexicalGrounder:
@@ -129,7 +134,12 @@ class LexicalGrounder:
 def _predict_by_size(grounder: ObjectGrounder, views: Sequence[ObjectView]) -> list[ScoredView]:
     """Return the answer for each view; copies come one after the other, so that small caches find their results."""
     order = sorted(range(len(views)), key=lambda index: views[index].own_size or ())
-    by_index = {index: grounder.predict(views[index]) for index in order}
+
+    def predict(indices: Sequence[int]) -> list[ScoredView]:
+        return [grounder.predict(views[index]) for index in indices]
+
+    predicted = chain.from_iterable(compute_in_halves(predict, order, least=_MANY_OBJECTS))
+    by_index = dict(zip(order, predicted, strict=True))
     return [by_index[index] for index in range(len(views))]
 
 
