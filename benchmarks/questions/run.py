@@ -1,10 +1,11 @@
-"""Score answers to questions in people's own words about nine scenes.
+"""Score answers to questions in people's own words about twelve scenes.
 
 Usage: python -m benchmarks.questions.run [--split train|test] [--note TEXT] [--show]
 
 README.md describes the questions. An answer is right, wrong, or refused: the product says that it did not understand,
 or does not know. Prints the shares with 95 % intervals (Wilson), by kind of question; `--show` lists what is not right,
-but for held-out questions.
+but for held-out questions. A missing scene is skipped; `benchmarks.scenes.garage.build` and
+`benchmarks.scenes.salon.build` write two of them.
 """
 
 import argparse
@@ -18,6 +19,10 @@ from typing import Any
 import usd2kg
 from benchmarks.intervals import wilson
 from benchmarks.labelled_scenes import ROOT, SHARED
+from benchmarks.scenes.garage.build import COMMAND as BUILD_GARAGE
+from benchmarks.scenes.garage.build import STAGE as GARAGE
+from benchmarks.scenes.salon.build import COMMAND as BUILD_SALON
+from benchmarks.scenes.salon.build import STAGE as SALON
 from usd2kg.assistant import ask_offline
 from usd2kg.demo import demo_scene
 from usd2kg.errors import GraphError
@@ -33,8 +38,13 @@ SCENES = {
     "apartment": SHARED / "scenes/iai_apartment/apartment.usdc",
     "depot": ROOT / "benchmarks/scenes/warehouse/warehouse.usda",
     "island": ROOT / "benchmarks/scenes/island_kitchen/island_kitchen.usdc",
+    "salon": SALON,
+    "bicycle_shop": ROOT / "benchmarks/scenes/bicycle_shop/bicycle_shop.usdc",
+    "garage": GARAGE,
 }
 """Name in the table → stage, but for the demo kitchen."""
+REMEDIES = {"salon": f"run {BUILD_SALON}", "garage": f"run {BUILD_GARAGE}"}
+"""Name → what provides its stage where it is missing, but for those below `SHARED`."""
 HELD_OUT = "heldout"
 """Ends the notes of questions whose errors nobody reads."""
 RIGHT, WRONG, REFUSED = "right", "wrong", "refused"
@@ -75,7 +85,7 @@ def open_scene(name: str) -> GraphStore | None:
     """Return the graph of a scene; None if it is absent."""
     scene: Any = demo_scene() if name == "kitchen" else SCENES[name]
     if isinstance(scene, Path) and not scene.exists():
-        print(f"not measured: {name}, {scene} is missing")
+        print(f"not measured: {name}, {scene} is missing; {REMEDIES.get(name, 'set USD2KG_SHARED')}")
         return None
     path = Path("build") / "questions" / f"{name}.ttl"
     path.parent.mkdir(parents=True, exist_ok=True)
