@@ -17,6 +17,7 @@ __all__ = [
     "is_partial",
     "is_topic",
     "leaves_out",
+    "says_less",
     "tells_more",
     "with_notes",
 ]
@@ -125,6 +126,11 @@ def is_partial(found: InterpretedAnswer) -> bool:
     return _LEFT_OUT in found.sentence
 
 
+def says_less(found: InterpretedAnswer) -> bool:
+    """Return whether an answer leaves out words of its question, or reads them as others."""
+    return _SAYS.search(found.sentence) is not None
+
+
 def tells_more(one: InterpretedAnswer, other: InterpretedAnswer) -> bool:
     """Return whether an answer takes all words as they are, and another does not."""
-    return _SAYS.search(one.sentence) is None and _SAYS.search(other.sentence) is not None
+    return says_less(other) and not says_less(one)

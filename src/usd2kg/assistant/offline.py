@@ -1,11 +1,11 @@
 """ask_offline: answer a question in people's words, without a language model."""
 
-import re
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from functools import partial
 from pathlib import Path
 from typing import NamedTuple
 
+from usd2kg.assistant.antecedents import with_antecedent
 from usd2kg.assistant.comparisons import ComparisonAnswers
 from usd2kg.assistant.composition import ComposedAnswers
 from usd2kg.assistant.coverage import (
@@ -15,6 +15,7 @@ from usd2kg.assistant.coverage import (
     is_partial,
     is_topic,
     leaves_out,
+    says_less,
     tells_more,
     with_notes,
 )
@@ -42,21 +43,12 @@ from usd2kg.query.answer import join_answers
 from usd2kg.query.lookup import Nouns, UnknownWordError
 from usd2kg.query.lookup.amounts import UNIT_SYMBOLS
 from usd2kg.query.lookup.body_measures import BodyMeasures
-from usd2kg.query.lookup.prepositions import RELATION_OF
-from usd2kg.query.lookup.word_forms import is_plural
 from usd2kg.query.questions import list_questions
 from usd2kg.query.unicode_text import check_text
 
 __all__ = ["ask_offline"]
 
 _Reader = Callable[[Phrase], InterpretedAnswer]
-_PRONOUN = re.compile(r"\b(it|them|they)\b|(?<=there )one\b|(?<=find )one\b|(?<=see )one\b", re.IGNORECASE)
-_LINKS = word_set("query", "connectives") | RELATION_OF.keys()
-"""Words that lead to the modifier of a noun."""
-_ANTECEDENT_WORDS = 20
-"""Words before a pronoun among which its noun is looked for."""
-_STOP_WORDS = word_set("assistant", "fillers") | word_set("query", "connectives")
-"""Words that are in no noun."""
 
 
 class _Attempt(NamedTuple):
@@ -153,15 +145,29 @@ class _Answerer:
         }
 
     def answer(self, text: str) -> InterpretedAnswer:
-        """Return the answer to a question by composition and by patterns, which must not contradict each other.
+        """Return the answer to a question, or to its last clause with what its pronoun means.
 
         Raises:
             GraphError: the question is not understood, or may mean two things with different answers.
         """
+        clause = with_antecedent(text, self._is_noun_here)
+        try:
+            found = self._answer_whole(text)
+        except GraphError:
+            if clause is None:
+                raise
+            return self._answer_whole(clause)
+        if clause is None or not says_less(found):
+            return found
+        try:
+            return self._answer_whole(clause)
+        except GraphError:
+            return found
+
+    def _answer_whole(self, text: str) -> InterpretedAnswer:
+        """Return the answer by composition and by patterns, which must not contradict each other."""
         composed = self._first(text, self._composed_readers(text)) if self._is_english else _Attempt()
         matched = self._first(text, self._readers(text))
-        if composed.answer is None and matched.answer is None and (clause := self._with_antecedent(text)) is not None:
-            return self.answer(clause)
         if matched.answer is None:
             if composed.answer is not None:
                 return composed.answer
@@ -172,7 +178,9 @@ class _Answerer:
             return matched.answer
         if not contradict(composed.answer, matched.answer):
             return composed.answer if matched.question in _LISTS else matched.answer
-        if tells_more(composed.answer, matched.answer):
+        # Composition knows more of the words that restrict a noun in a list.
+        is_list = matched.question in _LISTS and not says_less(composed.answer)
+        if is_list or tells_more(composed.answer, matched.answer):
             return composed.answer
         raise UnknownWordError(
             f"{text!r} may mean two things, with different answers: {composed.answer.sentence} "
@@ -252,21 +260,6 @@ class _Answerer:
             own += read or [(self._answer_noun, Phrase("noun", {"thing": other}))]
         # A pattern of all words tells more than a cue.
         return sorted(own, key=lambda reading: (reading[0] != self._answer_phrase, leaves_out(reading[1])))
-
-    def _with_antecedent(self, text: str) -> str | None:
-        """Return the clause with a pronoun, and in its place a noun of the clauses before; None if there is none."""
-        clauses = split_clauses(text)
-        for at, clause in reversed([*enumerate(clauses)][1:]):
-            if (pronoun := _PRONOUN.search(clause)) is None:
-                continue
-            words = " ".join(clauses[:at]).split()[-_ANTECEDENT_WORDS:]
-            runs = (words[end - size : end] for size in range(4, 0, -1) for end in range(len(words), size - 1, -1))
-            named = (" ".join(run) for run in runs if not _STOP_WORDS.intersection(word.lower() for word in run))
-            many = pronoun[0].lower() in {"them", "they"}
-            noun = next((name for name in named if is_plural(name) is many and self._is_noun_here(name)), None)
-            if noun is not None:
-                return f"{clause[: pronoun.start()]}the {noun}{clause[pronoun.end() :]}"
-        return None
 
     def _is_noun_here(self, text: str) -> bool:
         """Return whether a text means objects of the scene, or names a kind that it lacks."""

@@ -22,6 +22,9 @@ _SHORT_FORMS = (
     (re.compile(r"\b(what|which|where|who|that|there|it|how)'s\b"), r"\1 is"),
     (re.compile(r"\b(\w+)'re\b"), r"\1 are"),
     (re.compile(r"\b(i|we|you|they)'ve\b"), r"\1 have"),
+    # What has been put somewhere is there.
+    (re.compile(r"\bhas( not)? (just )?been\b"), r"is\1"),
+    (re.compile(r"\bhave( not)? (just )?been\b"), r"are\1"),
 )
 _OPERATORS = word_set("query", "operators")
 _FUNCTION_WORDS = (
