@@ -1,0 +1,165 @@
+"""Collect groups and objects, and write them as a stage: Y up, centimetres, as Maya does."""
+
+import hashlib
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from pxr import Gf, Kind, Sdf, Usd, UsdGeom
+
+from benchmarks.scenes.hotel.shapes import Part
+
+__all__ = ["Group", "Hotel", "write"]
+
+ROOT = "/hotel_floor2"
+PROTOTYPES = Sdf.Path("/_library")
+ERRORS = (0.0, 0.0, 0.05, 0.1, 0.15, 0.2, -0.05, -0.1, -0.15, -0.2)
+"""Centimetres by which a standing thing is too high or too low, one of which is drawn by its path."""
+Vec = Sequence[float]
+ORIGIN = (0.0, 0.0, 0.0)
+
+
+@dataclass(frozen=True)
+class _Placed:
+    parts: tuple[Part, ...]
+    at: Vec
+    rot: Vec
+    scale: float
+    asset: str
+    """The name of a prototype of which this is an instance; "": geometry of its own."""
+
+
+class Hotel:
+    """The groups and objects so far, by path below the root."""
+
+    def __init__(self) -> None:
+        self.groups: dict[str, tuple[Vec, Vec, float]] = {}
+        self.objects: dict[str, _Placed] = {}
+        self.assets: dict[str, tuple[Part, ...]] = {}
+
+    def group(self, path: str, at: Vec = ORIGIN, yaw: float = 0.0, scale: float = 1.0) -> "Group":
+        """Add a group with a transform of its own."""
+        return Group(self, path, at, yaw, scale, 1.0)
+
+
+class Group:
+    """A prim of kind group or assembly, below which objects are placed in its own frame."""
+
+    def __init__(self, hotel: Hotel, path: str, at: Vec, yaw: float, scale: float, outer: float) -> None:
+        self.hotel = hotel
+        self.path = path
+        self.scale = scale * outer
+        hotel.groups[path] = (at, (0.0, yaw, 0.0), scale)
+
+    def group(self, name: str, at: Vec = ORIGIN, yaw: float = 0.0, scale: float = 1.0) -> "Group":
+        """Add a group within this one."""
+        return Group(self.hotel, f"{self.path}/{name}", at, yaw, scale, self.scale)
+
+    def put(
+        self,
+        name: str,
+        parts: Part | Sequence[Part],
+        at: Vec = ORIGIN,
+        rot: Vec = ORIGIN,
+        *,
+        fixed: bool = False,
+        asset: str = "",
+        scale: float = 1.0,
+    ) -> None:
+        """Add an object; unless it is fixed, it then stands a little too high or too low."""
+        path = f"{self.path}/{name}"
+        if path in self.hotel.objects:
+            raise ValueError(f"{path} is placed twice")
+        known = (parts,) if isinstance(parts, Part) else tuple(parts)
+        if asset:
+            known = self.hotel.assets.setdefault(asset, known)
+        error = 0.0 if fixed else _error(path) / self.scale
+        place = (at[0], at[1] + error, at[2])
+        self.hotel.objects[path] = _Placed(known, place, tuple(rot), scale, asset)
+
+
+def _error(path: str) -> float:
+    return ERRORS[hashlib.sha256(path.encode()).digest()[0] % len(ERRORS)]
+
+
+def write(hotel: Hotel, out: Path) -> None:
+    """Write the stage."""
+    stage = Usd.Stage.CreateInMemory()
+    UsdGeom.SetStageUpAxis(stage, UsdGeom.Tokens.y)
+    UsdGeom.SetStageMetersPerUnit(stage, 0.01)
+    root = UsdGeom.Xform.Define(stage, ROOT).GetPrim()
+    Usd.ModelAPI(root).SetKind(Kind.Tokens.assembly)
+    stage.SetDefaultPrim(root)
+    for path, (at, rot, scale) in hotel.groups.items():
+        xform = UsdGeom.Xform.Define(stage, f"{ROOT}/{path}")
+        Usd.ModelAPI(xform.GetPrim()).SetKind(Kind.Tokens.group)
+        _place(xform, at, rot, (scale,) * 3)
+    for path, placed in hotel.objects.items():
+        prim_path = Sdf.Path(f"{ROOT}/{path}")
+        if placed.asset:
+            prim = _instance(stage, prim_path, placed)
+        elif len(placed.parts) == 1 and _is_plain_mesh(placed.parts[0]):
+            prim = _gprim(stage, prim_path, placed.parts[0], pose=False)
+            _place(UsdGeom.Xformable(prim), placed.at, placed.rot, (placed.scale,) * 3)
+        else:
+            prim = UsdGeom.Xform.Define(stage, prim_path).GetPrim()
+            _place(UsdGeom.Xformable(prim), placed.at, placed.rot, (placed.scale,) * 3)
+            _geometry(stage, prim_path, placed.parts)
+        Usd.ModelAPI(prim).SetKind(Kind.Tokens.component)
+    stage.GetRootLayer().Export(str(out))
+
+
+def _is_plain_mesh(part: Part) -> bool:
+    return part.kind == "Mesh" and not any((*part.at, *part.rot))
+
+
+def _instance(stage: Any, path: Sdf.Path, placed: _Placed) -> Any:
+    prototype = PROTOTYPES.AppendChild(placed.asset)
+    if not stage.GetPrimAtPath(prototype):
+        stage.CreateClassPrim(PROTOTYPES)
+        UsdGeom.Xform.Define(stage, prototype)
+        _geometry(stage, prototype, placed.parts)
+    xform = UsdGeom.Xform.Define(stage, path)
+    _place(xform, placed.at, placed.rot, (placed.scale,) * 3)
+    xform.GetPrim().GetReferences().AddInternalReference(prototype)
+    xform.GetPrim().SetInstanceable(True)
+    return xform.GetPrim()
+
+
+def _geometry(stage: Any, path: Sdf.Path, parts: Sequence[Part]) -> None:
+    for index, part in enumerate(parts):
+        _gprim(stage, path.AppendChild(f"{part.kind.lower()}_{index + 1}"), part, pose=True)
+
+
+def _gprim(stage: Any, path: Sdf.Path, part: Part, *, pose: bool) -> Any:
+    if part.kind == "Mesh":
+        gprim = UsdGeom.Mesh.Define(stage, path)
+        gprim.CreatePointsAttr(part.points.astype(np.float32))
+        gprim.CreateFaceVertexCountsAttr([len(face) for face in part.faces])
+        gprim.CreateFaceVertexIndicesAttr([index for face in part.faces for index in face])
+        gprim.CreateSubdivisionSchemeAttr(UsdGeom.Tokens.none)
+        gprim.CreateDoubleSidedAttr(True)
+        gprim.CreateExtentAttr(UsdGeom.PointBased.ComputeExtent(gprim.GetPointsAttr().Get()))
+    else:
+        gprim = getattr(UsdGeom, part.kind).Define(stage, path)
+        if part.kind == "Cube":
+            gprim.CreateSizeAttr(1.0)
+        else:
+            gprim.CreateRadiusAttr(0.5)
+        if part.kind in {"Cylinder", "Cone"}:
+            gprim.CreateHeightAttr(1.0)
+            gprim.CreateAxisAttr(UsdGeom.Tokens.y)
+    if pose:
+        _place(gprim, part.at, part.rot, part.size)
+    return gprim.GetPrim()
+
+
+def _place(xform: Any, at: Vec, rot: Vec, scale: Vec) -> None:
+    if any(at):
+        xform.AddTranslateOp().Set(Gf.Vec3d(*map(float, at)))
+    if any(rot):
+        xform.AddRotateXYZOp().Set(Gf.Vec3f(*map(float, rot)))
+    if any(value != 1.0 for value in scale):
+        xform.AddScaleOp().Set(Gf.Vec3f(*map(float, scale)))
