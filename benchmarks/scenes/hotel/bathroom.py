@@ -13,7 +13,7 @@ FLACON = (lathe([(0.001, 0), (1.7, 0), (1.7, 5), (1, 6), (1, 7.4), (0.001, 7.4)]
 def build_bathroom(hotel: Hotel) -> None:
     """Add the bathroom, in a frame at its north-west corner."""
     bath = hotel.group("bathroom", (490, 0, 10))
-    _washstand(bath.group("washstand", (125, 0, 0)))
+    _washstand(bath.group("washstand", (125, 0, 0), unit=100))
     _toilet(bath.group("toilet", (220, 0, 105), -90))
     _shower(bath.group("shower", (174, 0, 239)))
     _towels(bath)
@@ -96,8 +96,7 @@ def _washstand(stand: Group) -> None:
     stand.put("wall_mirror", [box(130, 80, 1.6), box(126, 76, 0.4, (0, 2, 1))], (0, 108, 1), fixed=True)
     stand.put("mirror_lamp", [box(60, 4, 4), tube([(-28, 1.5, 4), (28, 1.5, 4)], 1.6)], (0, 194, 2.1), fixed=True)
     stand.put("shelf_basket", crate(36, 16, 28, 0.8), (-36, 30, 26), (0, -7, 0))
-    for index, (x, z) in enumerate(((-40, 26),), 1):
-        stand.put(f"spare_roll_{index:02}", ROLL, (x, 30.8, z), asset="toilet_roll")
+    stand.put("spare_roll_01", ROLL, (-40, 30.8, 26), asset="toilet_roll")
     for index in range(2):
         stand.put(
             f"bath_towel_{index + 1:02}", puff(42, 7, 32, 0.3), (26, 30 + 7 * index, 26), (0, (0, 3, -2)[index], 0)
@@ -116,7 +115,7 @@ def _toilet(place: Group) -> None:
     # Its back, at z = 0, is the east wall.
     bowl = lathe([(0.001, 0), (12, 0), (13, 20), (19, 38), (19, 40), (14, 40), (12, 30), (5, 20), (0.001, 20)], 24)
     place.put("toilet_bowl", [bowl, box(22, 38, 20, (0, 0, -20))], (0, 0, 38))
-    place.put("cistern", [box(38, 36, 15)], (0, 41, 8.2), fixed=True)
+    place.put("cistern", [box(38, 36, 15)], (0, 41, 7.8), fixed=True)
     place.put("flush_button", cyl(2.2, 0.8), (0, 76.9, 8), fixed=True)
     ring = lathe([(12, 0), (19.4, 0), (19.4, 1.6), (12, 1.6), (12, 0)], 24)
     place.put("toilet_seat", ring, (0, 40.2, 38), fixed=True)
@@ -179,7 +178,7 @@ def _shower(place: Group) -> None:
     head = lathe([(0.001, 12), (1, 12), (5, 15), (5, 17), (0.001, 17)])
     place.put(
         "hand_shower",
-        [tube([(0, -9, 0), (0, 13, 0)], 1.4), moved(head, (0, 24.4, -15.2), (110, 0, 0))],
+        [tube([(0, -9, 0), (0, 13, 0)], 1.4), moved(head, (0, 17.6, 10.8), (-110, 0, 0))],
         (4, 178, 41.5),
         fixed=True,
     )
@@ -222,7 +221,7 @@ def _towels(bath: Group) -> None:
     stubs = [tube([(x, y, 0), (x, y, 8)], 0.8) for x in (-24, 24) for y in (60, 168)]
     rail.put("towel_rail", [*rungs, *posts, *stubs], fixed=True)
     for name, x, y, width, front, back in (
-        ("bath_towel_wet", -1, 108, 40, 40, 30),
+        ("bath_towel_wet", -1.0, 108.0, 40, 40, 30),
         ("hand_towel_wet", 5, 144, 26, 22, 20),
     ):
         line = [(-1.8, -back), (-1.6, -2), (-1.1, 0.4), (0, 1.1), (1.1, 0.4), (1.6, -2), (1.9, -front)]

@@ -34,7 +34,7 @@ def build_bed(hotel: Hotel) -> None:
     bed.put("pillow_03", puff(68, 12, 40, 0.5), (-39, 62.4, 32), (0, -2, 0))
     bed.put("pillow_04", puff(68, 12, 40, 0.5), (40, 62.55, 33), (0, 4, 0))
     over = [(-88, 20), (-88, 44), (-85, 53), (-80, 55.4), (0, 55.2), (80, 55.4), (85, 53), (88, 44), (88, 24)]
-    bed.put("bed_runner", drape(over, 50, 1), (0, 0, 180), fixed=True)
+    bed.put("bed_runner", drape(over, 50, 1), (0, -0.15, 180), fixed=True)
     bed.put("cushion_01", puff(38, 38, 14, 0.5), (-18, 56.2, 73), (-28, 0, 0))
     bed.put("turndown_chocolate", box(3.5, 1, 3.5), (-40, 74.2, 32), (0, 25, 0))
     for name, x in (("L", 62), ("R", -62)):

@@ -80,7 +80,7 @@ def _chafing(place: Group) -> None:
     place.put(
         "chafing_lid",
         [moved(lid, (0, 0, 34.5)), tube([(-6, 8.4, 30), (-6, 11, 30), (6, 11, 30), (6, 8.4, 30)], 0.6, 6)],
-        (0, 16.95, -17.2),
+        (0, 16.5, -17.2),
         (-72, 0, 0),
         fixed=True,
     )
@@ -150,9 +150,8 @@ def _drinks(place: Group) -> None:
         place.put(f"juice_glass_{index:02}", GLASS, (x, 11.6, z), (180, 0, 0), asset="juice_glass")
     rack = [crate(14, 4, 10, 0.4), tube([(-7, 3.6, 0), (-7, 12, 0), (7, 12, 0), (7, 3.6, 0)], 0.4, 6)]
     place.put("jam_caddy", rack, (14, 0, -13), (0, 10, 0))
-    for index, x in enumerate((-2,), 1):
-        jar = [lathe([(0.001, 0), (2.4, 0), (2.4, 4), (0.001, 4)], 14), cyl(2.5, 1, (0, 4, 0))]
-        place.put(f"jam_jar_{index:02}", jar, (14 + x, 0.4, -13 - 0.17 * x), asset="jam_jar")
+    jar = [lathe([(0.001, 0), (2.4, 0), (2.4, 4), (0.001, 4)], 14), cyl(2.5, 1, (0, 4, 0))]
+    place.put("jam_jar_01", jar, (12, 0.4, -12.7))
 
 
 def _cutlery(place: Group) -> None:

@@ -28,8 +28,7 @@ def furnish() -> Hotel:
     hotel = Hotel()
     build_shell(hotel)
     build_corridor(hotel)
-    for name in ("guest_room",):
-        hotel.group(name)
+    hotel.group("guest_room")
     build_bed(hotel)
     build_wardrobe(hotel)
     build_desk(hotel)

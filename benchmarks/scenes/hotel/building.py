@@ -67,7 +67,6 @@ def build_shell(hotel: Hotel) -> None:
         group = doors.group(name, at, yaw)
         group.put("leaf", box(width, 204, 4), fixed=True)
         if name == "kitchen_door":
-            group.put("kick_plate", box(80, 25, 0.3, (0, 2, 2.2)), fixed=True)
             group.put("porthole", cyl(16, 4.6, (0, 145, 0), (90, 0, 0)), fixed=True)
             continue
         group.put("handle_out", HANDLE, (-width / 2 + 6, 104, 2), fixed=True, asset="door_handle")
@@ -80,7 +79,7 @@ def _fit_room_door(hotel: Hotel) -> None:
     door = hotel.group("building/doors/room_door/fittings")
     door.put("room_number_sign", box(10, 10, 0.4, (0, 150, 2.25)), fixed=True)
     door.put("peephole", cyl(0.9, 4.8, (0, 146.6, 0), (90, 0, 0)), fixed=True)
-    door.put("escape_plan", box(21, 29.7, 0.3, (0, 120, -2.2)), fixed=True)
+    door.put("escape_plan", box(21, 29.7, 0.3, (0, 112, -2.2)), fixed=True)
     ring = [(0, 12, 0), (-3.5, 10, 0), (-4, 6, 0), (0, 2.4, 0), (4, 6, 0), (3.5, 10, 0), (0, 12, 0)]
     # The loop of the sign goes around the neck of the inner handle.
     door.put(

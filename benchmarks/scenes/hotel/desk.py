@@ -28,7 +28,7 @@ def build_desk(hotel: Hotel) -> None:
     desk.put("desk_drawer", drawer, (30, 62, 0), fixed=True)
     desk.put("drawer_bar", tube([(-6, 0, 0), (-6, 0, 2.2), (6, 0, 2.2), (6, 0, 0)], 0.5, 6), (30, 66.5, 26), fixed=True)
     desk.group("in_drawer", (30, 63, 0)).put("stationery_set", box(22, 1.6, 31), (-2, 0, 2), (0, 5, 0))
-    chair = desk.group("chair", (-4, 0, 44), 176)
+    chair = desk.group("chair", (-4, 0, 44), 176, unit=2.54)
     legs = [(x, x + 3.5, 0, 43, z, z + 3.5) for x in (-21, 17.5) for z in (-20, 17)]
     back = ((-21, -17.5, 43, 88, -20, -17), (17.5, 21, 43, 88, -20, -17), (-17.5, 17.5, 62, 86, -19.5, -17.5))
     chair.put("desk_chair", slabs(*legs, (-22, 22, 43, 45.5, -21, 21), *back))
@@ -92,17 +92,16 @@ def _tea(tray: Group) -> None:
         [lathe([(0.001, 0), (5.8, 0), (5, 1.2), (0.001, 1.6)]), ball(2, 2, 2, (0, 1.4, 0))],
         (-12, 21.8, -4),
     )
-    for index, (x, z) in enumerate(((9.4, 2.5),), 1):
-        tray.put(f"saucer_{index:02}", SAUCER, (x, 0.8, z), asset="saucer")
-        tray.put(f"tea_cup_{index:02}", CUP, (x - 0.5, 1.2, z), (0, 30 * index, 0), asset="tea_cup")
-        tray.put(f"teaspoon_{index:02}", SPOON, (x + 4.4, 1.5, z + 1), (8, 10 * index, 0), fixed=True, asset="teaspoon")
-    tray.put("sachet_bowl", cup(4, 6, 5, 0.4), (-8, 0.8, 8.6))
+    tray.put("saucer_01", SAUCER, (9.4, 0.8, 2.5), asset="saucer")
+    tray.put("tea_cup_01", CUP, (8.9, 1.2, 2.5), (0, 30, 0), asset="tea_cup")
+    tray.put("teaspoon_01", SPOON, (13.8, 1.5, 3.5), (8, 10, 0), fixed=True)
+    tray.put("sachet_bowl", cup(4, 6, 5, 0.4), (-7, 0.8, 8.9))
     for index, (x, z, tilt, turn) in enumerate(((-1.6, 0, 62, 5), (0, 0.4, 66, -8)), 1):
         name = ("tea_sachet", "sugar_stick")[index - 1]
         tray.put(
             f"{name}_{index:02}",
             box(3.2 if index < 2 else 1.6, 0.35, 6),
-            (x - 8, 4, z + 8.6),
+            (x - 7, 4, z + 8.9),
             (tilt, turn, 0),
             fixed=True,
         )
@@ -134,7 +133,7 @@ def build_minibar(hotel: Hotel) -> None:
     """Add the open minibar and the glasses on it, right of the desk."""
     bar = hotel.group("guest_room/minibar", (216, 0, 394), 180)
     bar.put("fridge_body", crate(48, 74, 48, 3, side="front"))
-    door = bar.group("door", (24, 0.4, 24.6), 108)
+    door = bar.group("door", (24, 1.4, 24.6), 108)
     # Its hinge is at the origin; shut, it reaches to the left along -x.
     door.put("fridge_door", slabs((-48, 0, 0, 73, 0, 4), (-45, -44, 4, 69, -1, 0), (-4, -3, 4, 69, -1, 0)), fixed=True)
     door.put("door_pull", tube([(-44, 50, 4), (-44, 50, 7), (-44, 66, 7), (-44, 66, 4)], 0.6, 6), fixed=True)
@@ -148,13 +147,12 @@ def build_minibar(hotel: Hotel) -> None:
         door.put(f"door_rack_{index:02}", rack, (0, y, -0.1), fixed=True, asset="minibar_door_rack")
     for index, x in enumerate((-12, -33), 1):
         door.put(f"water_bottle_{index:02}", BOTTLE, (x, 6.8, -4.5), asset="water_bottle")
-    for index, x in enumerate((-14,), 1):
-        door.put(f"tonic_can_{index:02}", CAN, (x, 38.8, -4.4), asset="can")
+    door.put("tonic_can_01", CAN, (-14, 38.8, -4.4), asset="can")
     for index, y in enumerate((27, 50), 1):
         wires = [tube([(-20 + 5 * i, 0, -19), (-20 + 5 * i, 0, 17)], 0.3, 6) for i in range(9)]
         ends = [tube([(-20.9, 0, z), (20.9, 0, z)], 0.35, 6) for z in (-19, 17)]
         bar.put(f"wire_shelf_{index:02}", [*wires, *ends], (0, y, 0), fixed=True, asset="wire_shelf")
-    for index, (x, z) in enumerate(((-13, 4), (-4, 6)), 1):
+    for index, (x, z) in enumerate(((-13, 4.0), (-4, 6.0)), 1):
         bar.put(f"juice_bottle_{index:02}", BOTTLE, (x, 27.3, z), asset="water_bottle", scale=0.78)
     bar.put("chocolate_bar", box(16, 1.2, 7), (10, 27.3, 5), (0, 25, 0))
     for index, (x, z) in enumerate(((-12, 8), (-4, 8.5)), 1):
@@ -167,8 +165,7 @@ def build_minibar(hotel: Hotel) -> None:
     wine = lathe(
         [(0.001, 0), (3.4, 0), (0.5, 0.8), (0.5, 8), (3.6, 12), (3.2, 18), (3, 18), (3.4, 12), (0.4, 8.4), (0.001, 8.3)]
     )
-    for index, x in enumerate((-12,), 1):
-        top.put(f"wine_glass_{index:02}", wine, (x, 0.4, 6), asset="wine_glass")
+    top.put("wine_glass_01", wine, (-12, 0.4, 6))
     top.put("tumbler_upside_down", cup(3.2, 3.8, 9, 0.3), (-11, 9.4, -3), (180, 0, 0))
     bucket = (
         cup(8, 10, 18, 0.5),

@@ -24,8 +24,7 @@ def build_kitchen(hotel: Hotel) -> None:
         tube([(0, 79, 0), (0, 16, 0)], 0.3, 6),
         lathe([(3, 17), (16, 0), (15.6, 0), (2.6, 17), (3, 17)]),
     ]
-    for index, x in enumerate((250,), 1):
-        kitchen.put(f"pendant_lamp_{index:02}", pendant, (x, 179.8, 220), fixed=True, asset="pendant_lamp")
+    kitchen.put("pendant_lamp_01", pendant, (250, 179.8, 220), fixed=True)
     bin_group = kitchen.group("waste", (28, 0, 330))
     bin_group.put("waste_sorter", [crate(40, 60, 30, 1), box(1, 56, 28, (0, 1, 0))])
     bin_group.put("banana_peel", puff(14, 5, 9, 0.9), (-10, 1, 3), (0, 30, 0))
@@ -60,10 +59,8 @@ def _cabinets(base: Group) -> None:
         *((-15.6, 15.6, 0.4, 5, z, z + 0.4) for z in (-20, 19.6)),
     )
     base.put("cutlery_tray", tray, (44, 67, 60))
-    for index, (x, y) in enumerate(((33.2, 67.4),), 1):
-        base.put(f"drawer_fork_{index:02}", FORK, (x, y, 61), (0, 3 * index, 0), fixed=True, asset="fork")
-    for index, x in enumerate((43,), 1):
-        base.put(f"drawer_knife_{index:02}", KNIFE, (x, 67.4, 60), (0, 2 * index, 0), fixed=True, asset="table_knife")
+    base.put("drawer_fork_01", FORK, (33.2, 67.4, 61), (0, 3, 0), fixed=True, asset="fork")
+    base.put("drawer_knife_01", KNIFE, (43, 67.4, 60), (0, 2, 0), fixed=True, asset="table_knife")
     base.put(
         "stock_pot",
         [
@@ -169,19 +166,11 @@ def _wall(wall: Group) -> None:
             6,
         )
     ]
-    for index, (x, r) in enumerate(((366, 12),), 1):
-        wall.put(f"s_hook_{index:02}", hook, (x, 189.95, 7), fixed=True, asset="s_hook")
-        pan = lathe([(0.001, 0), (r - 1, 0), (r, 4.5), (r - 0.4, 4.5), (r - 1.3, 0.4), (0.001, 0.4)], 24)
-        eye = tube(
-            [(0, 0, 0), (-1.2, -1.6, 0), (-1, -3.6, 0), (0, -4.4, 0), (1, -3.6, 0), (1.2, -1.6, 0), (0, 0, 0)], 0.3, 6
-        )
-        handle = tube([(0, -4.2, 0), (0, -20, 0)], 0.9)
-        wall.put(
-            f"frying_pan_{index:02}",
-            [moved(pan, (0, -19.6 - r, -2), (90, 0, 0)), handle, eye],
-            (x, 183.0, 8.4),
-            fixed=True,
-        )
+    wall.put("s_hook_01", hook, (366, 189.95, 7), fixed=True)
+    pan = lathe([(0.001, 0), (11, 0), (12, 4.5), (11.6, 4.5), (10.7, 0.4), (0.001, 0.4)], 24)
+    rim = [(0, 0, 0), (-1.2, -1.6, 0), (-1, -3.6, 0), (0, -4.4, 0), (1, -3.6, 0), (1.2, -1.6, 0), (0, 0, 0)]
+    parts = [moved(pan, (0, -31.6, -2), (90, 0, 0)), tube([(0, -4.2, 0), (0, -20, 0)], 0.9), tube(rim, 0.3, 6)]
+    wall.put("frying_pan_01", parts, (366, 183.0, 8.4), fixed=True)
 
 
 def _fridge(fridge: Group) -> None:
@@ -208,8 +197,7 @@ def _fridge(fridge: Group) -> None:
             faces=slabs((0, 1, 0, 1, 0, 1)).faces,
         ),
     ]
-    for index, x in enumerate((-16,), 1):
-        door.put(f"milk_carton_{index:02}", carton, (x, 61, -4.9), asset="milk_carton")
+    door.put("milk_carton_01", carton, (-16, 61, -4.9))
     for index, y in enumerate((60, 105), 1):
         fridge.put(f"glass_shelf_{index:02}", box(53.6, 1, 48), (0, y, -1), fixed=True)
     fridge.put("crisper", crate(52, 22, 46, 1), (0, 4.2, 1), fixed=True)

@@ -11,7 +11,7 @@ __all__ = ["build_linen_room"]
 def build_linen_room(hotel: Hotel) -> None:
     """Add the linen room, in a frame at its north-west corner."""
     room = hotel.group("linen_room", (10, 0, 590))
-    _rack(room.group("rack", (240, 0, 174), 180))
+    _rack(room.group("rack", (240, 0, 174), 180, unit=0.1))
     _cupboard(room.group("cupboard", (20.5, 0, 130), 90))
     for name, x, z, turn in (("white", 108, 152, 0), ("terry", 114, 86, 25)):
         _sack(room.group(f"sack_{name}", (x, 0, z), turn), name)
@@ -53,8 +53,7 @@ def _rack(rack: Group) -> None:
     # The boards' tops are 2 cm higher than their undersides.
     for index, (x, y, size) in enumerate(((-66, 68, 8), (-66.4, 76, 8), (-12, 68, 9)), 1):
         rack.put(f"sheet_pack_{index:02}", puff(44, size, 36, 0.25), (x, y, 0), (0, (0, 2, -3)[index % 3], 0))
-    for index, (x, y) in enumerate(((48, 68),), 1):
-        rack.put(f"pillow_{index:02}", puff(62, 13, 40, 0.5), (x, y, 0))
+    rack.put("pillow_01", puff(62, 13, 40, 0.5), (48, 68, 0))
     rack.put("duvet_bag", puff(70, 34, 44, 0.4), (-52, 122, 0))
     rack.put("lidded_box", crate(50, 24, 38, 1, top=24), (24, 122, 0), (0, 2, 0))
     rack.put(
@@ -70,13 +69,11 @@ def _rack(rack: Group) -> None:
         (0, 2, 0),
     )
     rack.put("sewing_tin", crate(20, 8, 14, 0.3), (72, 122, 4), (0, -15, 0))
-    for index, (x, z) in enumerate(((68, 4),), 1):
-        spool = lathe([(0.001, 0), (2, 0), (2, 0.5), (1.4, 0.8), (1.4, 4), (2, 4.3), (2, 4.8), (0.001, 4.8)], 14)
-        rack.put(f"thread_spool_{index:02}", spool, (x, 122.3, z), asset="thread_spool")
+    spool = lathe([(0.001, 0), (2, 0), (2, 0.5), (1.4, 0.8), (1.4, 4), (2, 4.3), (2, 4.8), (0.001, 4.8)], 14)
+    rack.put("thread_spool_01", spool, (68, 122.3, 4))
     rack.put("baby_bath", crate(74, 22, 44, 0.8), (-40, 176, 0))
     rack.put("rubber_duck", [puff(8, 6, 10, 0.9), puff(5, 5, 5, 1)], (-34, 176.8, 4), (0, 40, 0))
-    for index, x in enumerate((-66,), 1):
-        rack.put(f"shelf_label_{index:02}", box(8, 2.4, 0.2), (x, 65.8, 24.2), fixed=True)
+    rack.put("shelf_label_01", box(8, 2.4, 0.2), (-66, 65.8, 24.2), fixed=True)
     rack.put(
         "vacuum_cleaner",
         [puff(34, 24, 46, 0.5), tube([(0, 16, 20), (6, 24, 26), (14, 22, 22), (16, 4, 16)], 1.8)],
@@ -89,14 +86,12 @@ def _cupboard(case: Group) -> None:
     sides = ((-45, -43, 0, 180, -20, 20), (43, 45, 0, 180, -20, 20), (-43, 43, 0, 180, -20, -19))
     boards = [(-43, 43, y, y + 2, -19, 20) for y in (6, 60, 114, 178)]
     case.put("open_cupboard", slabs(*sides, *boards))
-    for index, (x, z) in enumerate(((-30, 2),), 1):
-        case.put(f"cleaner_spray_{index:02}", spray_bottle(), (x, 62, z), (0, 70, 0), asset="spray_bottle")
+    case.put("cleaner_spray_01", spray_bottle(), (-30, 62, 2), (0, 70, 0), asset="spray_bottle")
     rolls = [moved(ROLL[0], (x, 0, z)) for x in (-11, 0, 11) for z in (-5.6, 5.6)]
     case.put("roll_pack", rolls, (-24, 116, 0))
     case.put("bulb_carton", crate(30, 20, 24, 0.5), (20, 116, 0), (0, -6, 0))
     bulb = [lathe([(0.001, 0), (1.2, 0), (1.3, 2), (3, 6), (2, 9), (0.001, 9.6)], 14)]
-    for index, x in enumerate((18,), 1):
-        case.put(f"spare_bulb_{index:02}", bulb, (x, 116.5, 1))
+    case.put("spare_bulb_01", bulb, (18, 116.5, 1))
     case.put("rag_bucket", [lathe([(0.001, 0), (11, 0), (14, 26), (13.4, 26), (10.4, 0.6), (0.001, 0.6)])], (20, 8, 1))
     case.put("rags", puff(19, 13, 18, 0.8), (20, 8.6, 1), (0, 30, 0))
 

@@ -45,15 +45,8 @@ def build_living(hotel: Hotel) -> None:
         fixed=True,
     )
     room.put("key_card", box(5.4, 8.6, 0.3), (477.7, 121, 402), (0, -90, 0), fixed=True)
-    for index, z in enumerate((386,), 1):
-        room.put(
-            f"light_switch_{index:02}",
-            [box(8, 8, 0.9), box(5, 5, 0.6, (0, 1.5, 0.7))],
-            (479.4, 108, z),
-            (0, -90, 0),
-            fixed=True,
-            asset="light_switch",
-        )
+    plate = [box(8, 8, 0.9), box(5, 5, 0.6, (0, 1.5, 0.7))]
+    room.put("light_switch_01", plate, (479.4, 108, 386), (0, -90, 0), fixed=True)
     room.put(
         "full_length_mirror",
         [box(44, 150, 2), box(40, 146, 0.6, (0, 2, 1.2))],
@@ -78,7 +71,7 @@ def _window(place: Group) -> None:
         (66.2, 59, 5.5),
         fixed=True,
     )
-    for side, x in (("L", -128), ("R", 128)):
+    for side, x in (("L", -134), ("R", 134)):
         place.put(
             f"rod_bracket_{side}",
             [

@@ -19,6 +19,7 @@ __all__ = [
     "lathe",
     "moved",
     "puff",
+    "resized",
     "slabs",
     "tube",
     "wave",
@@ -74,6 +75,13 @@ def ball(w: float, h: float, d: float, at: Vec = ORIGIN, rot: Vec = ORIGIN) -> P
 def moved(part: Part, at: Vec, rot: Vec = ORIGIN) -> Part:
     """Return a mesh at another pose; a gprim has its pose from the start."""
     return Part(part.kind, part.size, _three(at), _three(rot), part.points, part.faces)
+
+
+def resized(part: Part, factor: float) -> Part:
+    """Return a part scaled about its origin."""
+    at = _three([value * factor for value in part.at])
+    size = part.size if part.kind == "Mesh" else _three([value * factor for value in part.size])
+    return Part(part.kind, size, at, part.rot, part.points * factor, part.faces)
 
 
 def slabs(*ranges: Vec) -> Part:

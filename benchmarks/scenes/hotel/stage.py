@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 from pxr import Gf, Kind, Sdf, Usd, UsdGeom
 
-from benchmarks.scenes.hotel.shapes import Part
+from benchmarks.scenes.hotel.shapes import Part, resized
 
 __all__ = ["Group", "Hotel", "write"]
 
@@ -39,23 +39,24 @@ class Hotel:
         self.objects: dict[str, _Placed] = {}
         self.assets: dict[str, tuple[Part, ...]] = {}
 
-    def group(self, path: str, at: Vec = ORIGIN, yaw: float = 0.0, scale: float = 1.0) -> "Group":
+    def group(self, path: str, at: Vec = ORIGIN, yaw: float = 0.0, unit: float = 1.0) -> "Group":
         """Add a group with a transform of its own."""
-        return Group(self, path, at, yaw, scale, 1.0)
+        return Group(self, path, at, yaw, unit, 1.0)
 
 
 class Group:
-    """A prim of kind group or assembly, below which objects are placed in its own frame."""
+    """A prim of kind group, below which objects are placed in its own frame."""
 
-    def __init__(self, hotel: Hotel, path: str, at: Vec, yaw: float, scale: float, outer: float) -> None:
+    def __init__(self, hotel: Hotel, path: str, at: Vec, yaw: float, unit: float, outer: float) -> None:
         self.hotel = hotel
         self.path = path
-        self.scale = scale * outer
-        hotel.groups[path] = (at, (0.0, yaw, 0.0), scale)
+        self.unit = unit * outer
+        """Centimetres per unit of what is written below; all that is passed here is in centimetres."""
+        hotel.groups[path] = (_divided(at, outer), (0.0, yaw, 0.0), unit)
 
-    def group(self, name: str, at: Vec = ORIGIN, yaw: float = 0.0, scale: float = 1.0) -> "Group":
+    def group(self, name: str, at: Vec = ORIGIN, yaw: float = 0.0, unit: float = 1.0) -> "Group":
         """Add a group within this one."""
-        return Group(self.hotel, f"{self.path}/{name}", at, yaw, scale, self.scale)
+        return Group(self.hotel, f"{self.path}/{name}", at, yaw, unit, self.unit)
 
     def put(
         self,
@@ -74,10 +75,18 @@ class Group:
             raise ValueError(f"{path} is placed twice")
         known = (parts,) if isinstance(parts, Part) else tuple(parts)
         if asset:
+            # All copies share one mesh, in centimetres.
             known = self.hotel.assets.setdefault(asset, known)
-        error = 0.0 if fixed else _error(path) / self.scale
-        place = (at[0], at[1] + error, at[2])
+            scale /= self.unit
+        elif self.unit != 1:
+            known = tuple(resized(part, 1 / self.unit) for part in known)
+        error = 0.0 if fixed else _error(path)
+        place = _divided((at[0], at[1] + error, at[2]), self.unit)
         self.hotel.objects[path] = _Placed(known, place, tuple(rot), scale, asset)
+
+
+def _divided(values: Vec, unit: float) -> Vec:
+    return tuple(value / unit for value in values)
 
 
 def _error(path: str) -> float:
@@ -92,10 +101,10 @@ def write(hotel: Hotel, out: Path) -> None:
     root = UsdGeom.Xform.Define(stage, ROOT).GetPrim()
     Usd.ModelAPI(root).SetKind(Kind.Tokens.assembly)
     stage.SetDefaultPrim(root)
-    for path, (at, rot, scale) in hotel.groups.items():
+    for path, (at, rot, unit) in hotel.groups.items():
         xform = UsdGeom.Xform.Define(stage, f"{ROOT}/{path}")
         Usd.ModelAPI(xform.GetPrim()).SetKind(Kind.Tokens.group)
-        _place(xform, at, rot, (scale,) * 3)
+        _place(xform, at, rot, (unit,) * 3)
     for path, placed in hotel.objects.items():
         prim_path = Sdf.Path(f"{ROOT}/{path}")
         if placed.asset:

@@ -92,8 +92,7 @@ def _boards(place: Group) -> None:
     place.put("roll_box", crate(38, 18, 30, 0.6), (24, 57, -2), (0, -3, 0))
     for index, (x, z) in enumerate(((14, -8), (27, -7)), 1):
         place.put(f"paper_roll_{index:02}", ROLL, (x, 57.6, z), asset="toilet_roll")
-    for index in range(1):
-        place.put(f"folded_sheet_{index + 1:02}", puff(44, 9, 34, 0.25), (-22, 16 + 9 * index, -2), (0, 3 * index, 0))
+    place.put("folded_sheet_01", puff(44, 9, 34, 0.25), (-22, 16, -2))
     place.put("bottle_crate", crate(36, 14, 26, 0.8), (24, 16, 0), (0, 4, 0))
     for index, (x, z) in enumerate(((14, -5), (22, -6)), 1):
         place.put(f"refill_bottle_{index:02}", BOTTLE, (x, 16.8, z), asset="water_bottle")
@@ -120,17 +119,5 @@ def _beside(place: Group) -> None:
         (0, 31, 0),
     )
     place.put("mop", [puff(13, 9, 12, 0.8), tube([(0, 8, 0), (0, 128, 0)], 1.2)], (1, 3.9, 6), (3, 0, 3), fixed=True)
-    place.put(
-        "wet_floor_sign",
-        slabs(
-            (-15, 15, 2, 62, 13.4, 14),
-            (-15, 15, 2, 62, -14, -13.4),
-            (-15, -13, 0, 2, 13.4, 14),
-            (13, 15, 0, 2, 13.4, 14),
-            (-15, -13, 0, 2, -14, -13.4),
-            (13, 15, 0, 2, -14, -13.4),
-            (-15, 15, 61, 62.5, -14, 14),
-        ),
-        (62, 0, 4),
-        (0, 30, 0),
-    )
+    leaves = [box(30, 60, 0.6, (0, -0.65, 7 * s), (-13 * s, 0, 0)) for s in (-1, 1)]
+    place.put("wet_floor_sign", leaves, (62, 0, 4), (0, 30, 0))
