@@ -67,6 +67,8 @@ SCENES = {
     "bicycle_shop": Sources(
         ROOT / "benchmarks/scenes/bicycle_shop/bicycle_shop.usdc", (HERE / "judged/bicycle_shop.csv",)
     ),
+    "pottery": Sources(ROOT / "benchmarks/scenes/pottery/pottery.usdc", (HERE / "judged/pottery.csv",)),
+    "hotel": Sources(ROOT / "benchmarks/scenes/hotel/hotel.usdc", (HERE / "judged/hotel.csv",)),
 }
 
 
