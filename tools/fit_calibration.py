@@ -3,9 +3,9 @@
 Usage: python -m tools.fit_calibration
 
 Writes `src/usd2kg/data/calibration.json`: the weights of a logistic model, and its calibration error on each scene when
-fitted without it, and on each list when fitted without the lists of its ontology. Names with a public ontology are
-answered with the lists of what belongs to its classes that usd2kg ships, and again without them, as for an ontology
-that has none.
+fitted without it, and on each list when fitted without the lists of its ontology, beside the error that true
+confidences would have by chance. Names with a public ontology are answered with the lists of what belongs to its
+classes that usd2kg ships, and again without them, as for an ontology that has none.
 
 An answer is right if it is the gold class. Each distinct name of a scene and naming regime counts once, so that copies
 of an asset do not dominate.
@@ -22,6 +22,7 @@ from benchmarks.labelled_scenes import LabelledScene, iter_training_scenes
 from benchmarks.names.lists import LabelledName, iter_ontology_lists, resolve_home_lists, resolve_list
 from tools import build_written_names
 from tools.fitting import Array, write_weights
+from usd2kg.evaluation.metrics.calibration import mean_absolute_deviation
 from usd2kg.grounding import NamingRegime, view_objects
 from usd2kg.grounding.lexical.confidence import FEATURES, features_of, general_class_log_odds
 from usd2kg.grounding.lexical.grounder import LexicalGrounder
@@ -170,13 +171,22 @@ def cross_validate(names: Sequence[str], samples: Mapping[str, Sample]) -> dict[
 
 
 def _measure(sample: Sample, beta: Array) -> dict[str, float]:
-    """Return the expected calibration error (10 bins) and the accuracy."""
+    """Return the expected calibration error (10 bins), what it would be by chance alone, and the accuracy."""
     p = 1 / (1 + np.exp(-sample.features @ beta))
     bins = np.minimum((p * 10).astype(int), 9)
     total = sample.weights.sum()
-    error = sum(abs(np.sum(sample.weights[bins == b] * (sample.is_right - p)[bins == b])) / total for b in range(10))
-    mean = float(np.sum(sample.weights * sample.is_right) / total)
-    return {"calibration_error": round(float(error), 4), "accuracy": round(mean, 4)}
+    error = chance = 0.0
+    for b in np.unique(bins):
+        weights, expected = sample.weights[bins == b], p[bins == b]
+        error += abs(weights @ (sample.is_right[bins == b] - expected)) / total
+        # Copies of a name count as one answer (Kish 1965, effective sample size).
+        count = round(weights.sum() ** 2 / (weights @ weights))
+        chance += mean_absolute_deviation(count, weights @ expected / weights.sum()) / count * weights.sum() / total
+    return {
+        "calibration_error": round(float(error), 4),
+        "chance_calibration_error": round(float(chance), 4),
+        "accuracy": round(float(sample.weights @ sample.is_right / total), 4),
+    }
 
 
 if __name__ == "__main__":

@@ -14,6 +14,8 @@ from usd2kg.evaluation.metrics.agreement import agreement
 from usd2kg.evaluation.metrics.calibration import (
     accuracy_at_coverage,
     calibration_error,
+    chance_calibration_error,
+    mean_absolute_deviation,
     reliability_bins,
     risk_coverage_curve,
 )
@@ -121,6 +123,35 @@ def test_class_reports_and_confusions() -> None:
     assert (reports["Bowl"].precision, reports["Bowl"].recall) == (1 / 3, 1.0)
     assert (reports["Wall"].precision, reports["Wall"].recall) == (None, 0.0)
     assert confusion(scores) == ((E + "Cup", E + "Bowl", 2), (E + "Wall", None, 1))
+
+
+@pytest.mark.parametrize(
+    ("count", "probability", "expected"),
+    [
+        # One answer deviates by 1 - p with probability p, and by p otherwise.
+        (1, 0.3, 2 * 0.3 * 0.7),
+        # 0, 1 or 2 of two: 2 · 1/4 · 1.
+        (2, 0.5, 0.5),
+        # 0.064 · 1.8 + 0.288 · 0.8 + 0.432 · 0.2 + 0.216 · 1.2.
+        (3, 0.6, 0.6912),
+        (5, 0.0, 0.0),
+        (5, 1.0, 0.0),
+    ],
+)
+def test_mean_absolute_deviation_of_binomials(count: int, probability: float, expected: float) -> None:
+    assert mean_absolute_deviation(count, probability) == pytest.approx(expected)
+
+
+def test_mean_absolute_deviation_of_many_is_that_of_a_normal_distribution() -> None:
+    spread = math.sqrt(2 / math.pi * 100_000 * 0.2 * 0.8)
+    assert mean_absolute_deviation(100_000, 0.2) == pytest.approx(spread, rel=1e-3)
+
+
+def test_chance_calibration_error_by_bins() -> None:
+    scores = [score("Cup", "Cup", confidence) for confidence in (0.62, 0.68, 0.3)]
+    # Two answers at .65 and one at .3: (2 · 2 · .65² · .35 + 2 · .3 · .7) / 3.
+    assert chance_calibration_error(scores) == pytest.approx((4 * 0.65**2 * 0.35 + 0.42) / 3)
+    assert chance_calibration_error([score("Cup", None)]) is None
 
 
 def test_calibration_error_by_bins() -> None:

@@ -5,7 +5,11 @@ from dataclasses import dataclass
 from typing import Any
 
 from usd2kg.evaluation.metrics.accuracy import accept_also, exact_match
-from usd2kg.evaluation.metrics.calibration import accuracy_at_coverage, calibration_error
+from usd2kg.evaluation.metrics.calibration import (
+    accuracy_at_coverage,
+    calibration_error,
+    chance_calibration_error,
+)
 from usd2kg.evaluation.metrics.hierarchical import hierarchical_score, mean_hierarchical_score
 from usd2kg.evaluation.metrics.intervals import Interval, bootstrap_interval
 from usd2kg.evaluation.metrics.misses import count_misses
@@ -50,6 +54,8 @@ class Summary:
     hf1_interval: Interval
     calibration_error: float | None
     """Expected calibration error, 0 to 1; None without confidences."""
+    chance_calibration_error: float | None
+    """What the calibration error would be on average if the confidences were true; None without confidences."""
     accuracy_at_80: float | None
     """Exact match, percent, of the most confident answers that cover 80 % of the objects; None if too few."""
     accepted_at_80: float | None
@@ -97,6 +103,7 @@ def summarize_scores(scores: Sequence[Score], tbox: TBox) -> Summary:
         hf1=means.f1,
         hf1_interval=bootstrap_interval(f1),
         calibration_error=calibration_error(scores),
+        chance_calibration_error=chance_calibration_error(scores),
         accuracy_at_80=None if confident is None else 100 * confident,
         accepted_at_80=None if confident_also is None else 100 * confident_also,
         misses={kind.value: count for kind, count in count_misses(scores, tbox).items()},

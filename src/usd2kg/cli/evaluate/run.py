@@ -92,6 +92,7 @@ def _evaluation_text(result: "Evaluation", selection: "SelectionScore", tbox: "T
         ("hierarchical F1 (HF1)", f"{s.hf1:.3f}", f"{s.hf1_interval.lower:.3f} to {s.hf1_interval.upper:.3f}"),
         ("  end to end", f"{e.hf1:.3f}", f"{e.hf1_interval.lower:.3f} to {e.hf1_interval.upper:.3f}"),
         ("calibration error", format_optional(s.calibration_error, ".3f"), None),
+        ("  if the confidences were true", format_optional(s.chance_calibration_error, ".3f"), None),
         ("EMA of the most confident 80 %", format_optional(s.accuracy_at_80, ".1f"), None),
         ("  accepting a second label %", format_optional(s.accepted_at_80, ".1f"), None),
         ("object selection recall", f"{selection.recall:.3f}", None),

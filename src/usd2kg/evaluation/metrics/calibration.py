@@ -1,12 +1,21 @@
 """Calibration of confidences, and selective accuracy when low confidences abstain."""
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 
 from usd2kg.evaluation.score import Score
 from usd2kg.evaluation.settings import CONFIDENCE
 
-__all__ = ["ReliabilityBin", "accuracy_at_coverage", "calibration_error", "reliability_bins", "risk_coverage_curve"]
+__all__ = [
+    "ReliabilityBin",
+    "accuracy_at_coverage",
+    "calibration_error",
+    "chance_calibration_error",
+    "mean_absolute_deviation",
+    "reliability_bins",
+    "risk_coverage_curve",
+]
 
 _ROUNDING = 1e-12
 
@@ -52,6 +61,33 @@ def calibration_error(scores: Sequence[Score], bins: int = CONFIDENCE.bins) -> f
     filled = reliability_bins(scores, bins)
     total = sum(b.count for b in filled)
     return sum(b.count * abs(b.accuracy - b.confidence) for b in filled) / total if total else None
+
+
+def chance_calibration_error(scores: Sequence[Score], bins: int = CONFIDENCE.bins) -> float | None:
+    """Return the expected calibration error if each confidence is the true probability; None without confidences.
+
+    A calibration error is only evidence of false confidences as far as it exceeds this: with few answers, chance alone
+    makes it large. Answers count as independent, and those of one bin as equally probable.
+    """
+    filled = reliability_bins(scores, bins)
+    total = sum(b.count for b in filled)
+    return sum(mean_absolute_deviation(b.count, b.confidence) for b in filled) / total if total else None
+
+
+def mean_absolute_deviation(count: int, probability: float) -> float:
+    """Return E|X - count · probability| of a binomial variable X.
+
+    De Moivre's formula, 2 v C(n, v) p^v (1 - p)^(n - v + 1) with v = ⌊n p⌋ + 1; see Diaconis and Zabell 1991, Closed
+    Form Summation for Classical Distributions.
+
+    >>> round(mean_absolute_deviation(2, 0.5), 6)
+    0.5
+    """
+    if not 0 < probability < 1:
+        return 0.0
+    above = math.floor(count * probability) + 1
+    ways = math.lgamma(count + 1) - math.lgamma(above + 1) - math.lgamma(count - above + 1)
+    return 2 * above * math.exp(ways + above * math.log(probability) + (count - above + 1) * math.log1p(-probability))
 
 
 def risk_coverage_curve(scores: Sequence[Score], *, accepting: bool = False) -> tuple[tuple[float, float], ...]:

@@ -92,6 +92,7 @@ def detail_table(result: SceneResult) -> Table:
         "EMA % accept-also",
         "HF1 95 %",
         "calibration error",
+        "calibration error if the confidences were true",
         "EMA % at 80 % coverage",
         "EMA % accept-also at 80 % coverage",
     )
@@ -114,6 +115,7 @@ def _details(evaluations: Sequence[Evaluation]) -> tuple[str, ...]:
         spread_text([s.ema_also for s in summaries], 1),
         interval_text(first.hf1_interval, 3),
         number_text(first.calibration_error, 3),
+        number_text(first.chance_calibration_error, 3),
         number_text(first.accuracy_at_80, 1),
         number_text(first.accepted_at_80, 1),
     )
