@@ -37,7 +37,7 @@ class _ContainmentPairs(NamedTuple):
     sticks_out: Mask
     """Whether the target stands in the container and protrudes at its top."""
     is_surrounded: Mask
-    """Whether the anchor is not a container by its class, but surrounds the target."""
+    """Whether only the surface of the anchor may show that it contains the target, and not its class."""
 
 
 def find_inside(boxed: BoxedObjects, classes: ClassMembership, wholes: Indices, rules: RelationRules) -> Containment:
@@ -74,19 +74,27 @@ def find_inside(boxed: BoxedObjects, classes: ClassMembership, wholes: Indices, 
             if has_parts:
                 is_around &= ~((wholes[target] == anchor) & _are_fronts(boxed, target, anchor, rules.inside))
             is_around &= _overlap_vertically(boxed, target, anchor)
-            around = _enclosed(boxed, target[is_around], anchor[is_around], rules.inside)
-            found.append(around._replace(is_surrounded=np.ones(len(around.target), np.bool_)))
-            may &= is_open[anchor]
-            found.append(_standing(boxed, target[may], anchor[may], rules.standing_in))
+            found.append(_by_surface(_enclosed(boxed, target[is_around], anchor[is_around], rules.inside)))
+            stands = may & is_open[anchor]
+            found.append(_standing(boxed, target[stands], anchor[stands], rules.standing_in))
+            # A jar without its lid, and a glass of any other name.
+            stands = is_around | (may & ~is_open[anchor] & boxed.has_surface[anchor])
+            found.append(_by_surface(_standing(boxed, target[stands], anchor[stands], rules.standing_in)))
     pairs = concatenate_rows(found)
-    pairs = select_rows(pairs, ~_are_lids(boxed, pairs))
-    pairs = select_rows(pairs, _surfaces_agree(boxed, pairs, is_open, wholes, rules))
+    pairs = select_rows(pairs, ~_are_lids(boxed, pairs, classes.are_in("lids")[boxed.scene_index]))
+    agrees, is_shallow = _surfaces_agree(boxed, pairs, is_open, wholes, rules)
+    agrees |= _are_on_contents(boxed, pairs, agrees, is_shallow, rules)
+    pairs = select_rows(pairs, agrees)
     return _smallest(boxed, select_rows(pairs, ~_are_on_top(boxed, pairs, ~is_open, rules)), rules)
 
 
 def _no_pairs() -> _ContainmentPairs:
     nothing, no_number = np.zeros(0, np.int64), np.zeros(0)
     return _ContainmentPairs(nothing, nothing, no_number, no_number, np.zeros(0, np.bool_), np.zeros(0, np.bool_))
+
+
+def _by_surface(pairs: _ContainmentPairs) -> _ContainmentPairs:
+    return pairs._replace(is_surrounded=np.ones(len(pairs.target), np.bool_))
 
 
 def _overlap_as_parts(target: Indices, anchor: Indices, wholes: Indices, is_drawer: Mask) -> Mask:
@@ -153,25 +161,48 @@ def _standing(boxed: BoxedObjects, target: Indices, anchor: Indices, rule: Stand
     return select_rows(_ContainmentPairs(target, anchor, over * depth, clear, ~no, no), is_good)
 
 
-def _are_lids(boxed: BoxedObjects, pairs: _ContainmentPairs) -> Mask:
-    """Return for each pair whether the target is broader than the anchor and in its upper half: a lid over a box.
+def _are_lids(boxed: BoxedObjects, pairs: _ContainmentPairs, is_lid: Mask) -> Mask:
+    """Return for each pair whether the target closes the anchor, in whose upper half it is: a lid over a box or a pot.
 
-    A plant is broader than its pot, but its stem is not.
+    It is broader than the anchor, or a lid by its class, and sticks out. A plant is broader than its pot, but its stem
+    is not.
     """
     lower, upper = boxed.feet
     feet = (upper - lower)[pairs.target, :2]
-    is_broader = (feet > boxed.size[pairs.anchor, :2]).all(axis=1)
-    return np.asarray(is_broader & (boxed.lower[pairs.target, 2] > boxed.middle[pairs.anchor, 2]))
+    closes = (feet > boxed.size[pairs.anchor, :2]).all(axis=1) | (is_lid[pairs.target] & pairs.sticks_out)
+    return np.asarray(closes & (boxed.lower[pairs.target, 2] > boxed.middle[pairs.anchor, 2]))
+
+
+def _are_on_contents(
+    boxed: BoxedObjects, pairs: _ContainmentPairs, agrees: Mask, is_shallow: Mask, rules: RelationRules
+) -> Mask:
+    """Return for each pair of a mask whether the target lies on what the anchor contains, from the bottom up."""
+    is_on = np.zeros(len(pairs.target), np.bool_)
+    inside: dict[int, list[int]] = {}
+    for pair in np.flatnonzero(agrees).tolist():
+        inside.setdefault(int(pairs.anchor[pair]), []).append(int(pairs.target[pair]))
+    pending = np.flatnonzero(is_shallow)
+    for pair in pending[np.argsort(boxed.lower[pairs.target[pending], 2], kind="stable")].tolist():
+        target, contents = int(pairs.target[pair]), inside.get(int(pairs.anchor[pair]), [])
+        shared = overlap_areas(boxed.lower[[target]], boxed.upper[[target]], boxed.lower[contents], boxed.upper[contents])
+        gap = np.abs(boxed.lower[target, 2] - boxed.upper[contents, 2])
+        is_on[pair] = bool(
+            ((shared > rules.on.min_overlap_ratio * boxed.area[target]) & (gap <= rules.on.max_gap)).any()
+        )
+        if is_on[pair]:
+            contents.append(target)
+    return is_on
 
 
 def _surfaces_agree(
     boxed: BoxedObjects, pairs: _ContainmentPairs, is_open: Mask, wholes: Indices, rules: RelationRules
-) -> Mask:
-    """Return for each pair whether the surface of the anchor encloses the target, as far as it is known.
+) -> tuple[Mask, Mask]:
+    """Return for each pair whether the surface of the anchor encloses the target, and whether only its depth is missing.
 
-    Drawers are in their whole, whose surface may be that of its front or of a solid.
+    Without a surface, it does. Drawers are in their whole, whose surface may be that of its front or of a solid.
     """
-    agrees = np.ones(len(pairs.target), np.bool_)
+    agrees, is_shallow = np.ones((2, len(pairs.target)), np.bool_)
+    is_shallow[:] = False
     is_drawer = (wholes[pairs.target] == pairs.anchor) & ~pairs.is_surrounded
     known = np.flatnonzero(boxed.has_surface[pairs.anchor] & ~is_drawer)
     some, rule = select_rows(pairs, known), rules.inside
@@ -186,14 +217,19 @@ def _surfaces_agree(
     is_around[around] = flanks >= rule.min_surrounded
     depth = boxed.upper[some.anchor, 2] - boxed.lower[some.target, 2]
     is_deep = depth >= rule.min_cavity_depth * boxed.size[some.anchor, :2].min(axis=1)
-    is_around |= is_deep & (found.below >= rule.min_surrounded) & (found.beside >= rule.min_walled)
-    is_around &= found.buried <= rule.max_buried
-    stands = (found.beside >= rules.standing_in.min_beside) | (found.caged >= rule.min_caged)
     is_walled = (found.beside >= rule.min_walled) & (found.below >= rule.min_surrounded)
-    depth_share = _shares(boxed, some.target, some.anchor)[:, 2]
-    stands &= is_walled | (depth_share >= rules.standing_in.min_depth_share)
+    is_free = found.buried <= rule.max_buried
+    is_around = (is_around | (is_walled & is_deep)) & is_free
+    shares = _shares(boxed, some.target, some.anchor)
+    # A dome over a cake.
+    is_covered = (found.beside >= rule.min_walled) & (found.above >= rule.min_walled) & (shares == 1).all(axis=1)
+    is_around |= is_covered & (boxed.size[some.anchor].min(axis=1) > rules.geometry.sheet_thickness)
+    stands = (found.beside >= rules.standing_in.min_beside) | (found.caged >= rule.min_caged)
+    stands &= is_walled | (shares[:, 2] >= rules.standing_in.min_depth_share)
+    stands &= ~some.is_surrounded | (is_walled & is_free & is_deep)
     agrees[known] = np.where(some.sticks_out, stands, np.where(some.is_surrounded, is_around, is_in))
-    return agrees
+    is_shallow[known] = some.is_surrounded & ~some.sticks_out & is_walled & is_free & ~is_around
+    return agrees, is_shallow
 
 
 def _are_on_top(boxed: BoxedObjects, pairs: _ContainmentPairs, is_closed: Mask, rules: RelationRules) -> Mask:
@@ -229,7 +265,7 @@ def _smallest(boxed: BoxedObjects, pairs: _ContainmentPairs, rules: RelationRule
     chosen_by = {
         rules.inside.rule: ~(is_surrounded | sticks_out),
         rules.standing_in.rule: sticks_out,
-        rules.inside.surrounded_rule: is_surrounded,
+        rules.inside.surrounded_rule: is_surrounded & ~sticks_out,
     }
     for rule, is_chosen in chosen_by.items():
         chosen = best[is_chosen]
