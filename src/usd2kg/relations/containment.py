@@ -24,7 +24,17 @@ class Containment(NamedTuple):
 
     links: list[Links]
     container: Indices
-    """Index of the container of each object, -1 for none."""
+    """Index of the container of each object, -1 for none. A dome is none, since what it covers stands below it."""
+
+
+class _Agreement(NamedTuple):
+    """What surfaces say of pairs that their boxes suggest, one row each."""
+
+    agrees: Mask
+    is_shallow: Mask
+    """Whether all agrees but the depth of the cavity below the target."""
+    is_covered: Mask
+    """Whether the anchor surrounds the target from above, and is open below."""
 
 
 class _ContainmentPairs(NamedTuple):
@@ -57,7 +67,11 @@ def find_inside(boxed: BoxedObjects, classes: ClassMembership, wholes: Indices, 
     may_be_in = (classes.may_be_placed & ~classes.are_in("not_contained"))[boxed.scene_index]
     has_parts = bool((wholes >= 0).any())
     is_open = can_contain & ~classes.are_in("closed")[boxed.scene_index]
-    never = classes.are_in("not_containers") | classes.are_in("walls") | classes.are_in("not_neighbours")
+    never = (
+        (classes.are_in("not_containers") & ~classes.are_in("lids"))
+        | classes.are_in("walls")
+        | classes.are_in("not_neighbours")
+    )
     is_room_sized = boxed.size.min(axis=1) >= rules.room.min_side
     is_room_sized &= boxed.size[:, 2] >= rules.room.min_height
     may_surround = boxed.has_surface & ~(can_contain | never[boxed.scene_index] | is_room_sized)
@@ -82,10 +96,11 @@ def find_inside(boxed: BoxedObjects, classes: ClassMembership, wholes: Indices, 
             found.append(_by_surface(_standing(boxed, target[stands], anchor[stands], rules.standing_in)))
     pairs = concatenate_rows(found)
     pairs = select_rows(pairs, ~_are_lids(boxed, pairs, classes.are_in("lids")[boxed.scene_index]))
-    agrees, is_shallow = _surfaces_agree(boxed, pairs, is_open, wholes, rules)
-    agrees |= _are_on_contents(boxed, pairs, agrees, is_shallow, rules)
-    pairs = select_rows(pairs, agrees)
-    return _smallest(boxed, select_rows(pairs, ~_are_on_top(boxed, pairs, ~is_open, rules)), rules)
+    agreement = _surfaces_agree(boxed, pairs, is_open, wholes, rules)
+    agrees = agreement.agrees | _are_on_contents(boxed, pairs, agreement, rules)
+    pairs, is_covered = select_rows(pairs, agrees), agreement.is_covered[agrees]
+    covered = pairs.target[is_covered] * len(boxed) + pairs.anchor[is_covered]
+    return _smallest(boxed, select_rows(pairs, ~_are_on_top(boxed, pairs, ~is_open, rules)), covered, rules)
 
 
 def _no_pairs() -> _ContainmentPairs:
@@ -174,17 +189,19 @@ def _are_lids(boxed: BoxedObjects, pairs: _ContainmentPairs, is_lid: Mask) -> Ma
 
 
 def _are_on_contents(
-    boxed: BoxedObjects, pairs: _ContainmentPairs, agrees: Mask, is_shallow: Mask, rules: RelationRules
+    boxed: BoxedObjects, pairs: _ContainmentPairs, agreement: _Agreement, rules: RelationRules
 ) -> Mask:
-    """Return for each pair of a mask whether the target lies on what the anchor contains, from the bottom up."""
+    """Return for each shallow pair whether the target lies on what the anchor contains, from the bottom up."""
     is_on = np.zeros(len(pairs.target), np.bool_)
     inside: dict[int, list[int]] = {}
-    for pair in np.flatnonzero(agrees).tolist():
+    for pair in np.flatnonzero(agreement.agrees).tolist():
         inside.setdefault(int(pairs.anchor[pair]), []).append(int(pairs.target[pair]))
-    pending = np.flatnonzero(is_shallow)
+    pending = np.flatnonzero(agreement.is_shallow)
     for pair in pending[np.argsort(boxed.lower[pairs.target[pending], 2], kind="stable")].tolist():
         target, contents = int(pairs.target[pair]), inside.get(int(pairs.anchor[pair]), [])
-        shared = overlap_areas(boxed.lower[[target]], boxed.upper[[target]], boxed.lower[contents], boxed.upper[contents])
+        shared = overlap_areas(
+            boxed.lower[[target]], boxed.upper[[target]], boxed.lower[contents], boxed.upper[contents]
+        )
         gap = np.abs(boxed.lower[target, 2] - boxed.upper[contents, 2])
         is_on[pair] = bool(
             ((shared > rules.on.min_overlap_ratio * boxed.area[target]) & (gap <= rules.on.max_gap)).any()
@@ -196,13 +213,13 @@ def _are_on_contents(
 
 def _surfaces_agree(
     boxed: BoxedObjects, pairs: _ContainmentPairs, is_open: Mask, wholes: Indices, rules: RelationRules
-) -> tuple[Mask, Mask]:
-    """Return for each pair whether the surface of the anchor encloses the target, and whether only its depth is missing.
+) -> _Agreement:
+    """Return for each pair whether the surface of the anchor encloses the target.
 
     Without a surface, it does. Drawers are in their whole, whose surface may be that of its front or of a solid.
     """
-    agrees, is_shallow = np.ones((2, len(pairs.target)), np.bool_)
-    is_shallow[:] = False
+    count = len(pairs.target)
+    agreement = _Agreement(np.ones(count, np.bool_), np.zeros(count, np.bool_), np.zeros(count, np.bool_))
     is_drawer = (wholes[pairs.target] == pairs.anchor) & ~pairs.is_surrounded
     known = np.flatnonzero(boxed.has_surface[pairs.anchor] & ~is_drawer)
     some, rule = select_rows(pairs, known), rules.inside
@@ -223,13 +240,15 @@ def _surfaces_agree(
     shares = _shares(boxed, some.target, some.anchor)
     # A dome over a cake.
     is_covered = (found.beside >= rule.min_walled) & (found.above >= rule.min_walled) & (shares == 1).all(axis=1)
-    is_around |= is_covered & (boxed.size[some.anchor].min(axis=1) > rules.geometry.sheet_thickness)
+    is_covered &= some.is_surrounded & (found.below < rule.min_below)
     stands = (found.beside >= rules.standing_in.min_beside) | (found.caged >= rule.min_caged)
     stands &= is_walled | (shares[:, 2] >= rules.standing_in.min_depth_share)
     stands &= ~some.is_surrounded | (is_walled & is_free & is_deep)
-    agrees[known] = np.where(some.sticks_out, stands, np.where(some.is_surrounded, is_around, is_in))
-    is_shallow[known] = some.is_surrounded & ~some.sticks_out & is_walled & is_free & ~is_around
-    return agrees, is_shallow
+    is_around |= is_covered
+    agreement.agrees[known] = np.where(some.sticks_out, stands, np.where(some.is_surrounded, is_around, is_in))
+    agreement.is_shallow[known] = some.is_surrounded & ~some.sticks_out & is_walled & is_free & ~is_around
+    agreement.is_covered[known] = is_covered
+    return agreement
 
 
 def _are_on_top(boxed: BoxedObjects, pairs: _ContainmentPairs, is_closed: Mask, rules: RelationRules) -> Mask:
@@ -253,7 +272,8 @@ def _are_on_top(boxed: BoxedObjects, pairs: _ContainmentPairs, is_closed: Mask, 
     return np.asarray(stands & (share > rules.inside.max_floor_share))
 
 
-def _smallest(boxed: BoxedObjects, pairs: _ContainmentPairs, rules: RelationRules) -> Containment:
+def _smallest(boxed: BoxedObjects, pairs: _ContainmentPairs, covered: Indices, rules: RelationRules) -> Containment:
+    """Return the smallest container of each object; `covered` has the keys of the pairs with a dome."""
     keys = (boxed.rank[pairs.anchor], pairs.sticks_out, boxed.volume[pairs.anchor])
     best = first_of_each_group(pairs.target, keys)
     is_round = is_on_cycle(_pointers(boxed, pairs, best), pairs.target[best])
@@ -273,7 +293,8 @@ def _smallest(boxed: BoxedObjects, pairs: _ContainmentPairs, rules: RelationRule
         links.append(
             Links("inside", rule, pairs.target[chosen], pairs.anchor[chosen], numbers, pairs.confidence[chosen])
         )
-    return Containment(links, _pointers(boxed, pairs, best))
+    has_floor = best[~np.isin(pairs.target[best] * len(boxed) + pairs.anchor[best], covered)]
+    return Containment(links, _pointers(boxed, pairs, has_floor))
 
 
 def _pointers(boxed: BoxedObjects, pairs: _ContainmentPairs, chosen: Indices) -> Indices:

@@ -107,7 +107,8 @@ class _Finder:
         is_doubtful = find_doubtful(self.boxed, self.classes, stronger, resting, self.rules.attached)
         doubtful = [links.where(is_doubtful[links.target]) for links in resting]
         stronger.withdraw_support(resting, is_doubtful)
-        hovering = find_hovering(self.boxed, support.near, stronger.is_free & ~is_doubtful, self.rules)
+        is_left = stronger.is_free & ~is_doubtful
+        hovering = find_hovering(self.boxed, support.near, is_left, containment.container, self.rules)
         attached = find_attached(
             self.boxed,
             self.classes,
@@ -125,7 +126,8 @@ class _Finder:
         yield beside
         yield from self._propped(attached, support)
         may_hover = stronger.may_hover & ~support.at_floor
-        yield from stronger.add_support([find_hovering(self.boxed, support.near, may_hover, self.rules)])
+        over = find_hovering(self.boxed, support.near, may_hover, containment.container, self.rules)
+        yield from stronger.add_support([over])
         fixed = find_attached(self.boxed, self.classes, stronger, self.rules.attached, needs_mount=False)
         stronger.add_attached(fixed)
         yield from self._propped(fixed, support)

@@ -116,10 +116,16 @@ def find_support(
     hangs = classes.are_in("hanging")[boxed.scene_index]
     limits = _Limits(tolerance, is_ground, hangs, rules)
     around = _find_contacts(boxed, np.flatnonzero(may_rest), can_support, limits)
-    near = select_rows(around, container[around.anchor] == container[around.target])
-    rests = (around.anchor == container[around.target]) & (around.ratio > rules.on.min_overlap_ratio)
-    rests &= np.abs(around.gap) <= around.allowed
-    at_floor = np.isin(np.arange(len(boxed)), around.target[rests])
+    meets = (np.abs(around.gap) <= around.allowed) & (around.ratio > rules.on.min_overlap_ratio)
+    at_floor = np.zeros(len(boxed), np.bool_)
+    at_floor[around.target[meets & (around.anchor == container[around.target])]] = True
+    is_near = container[around.anchor] == container[around.target]
+    # What is heaped above the rim of a container lies on its contents.
+    is_held = at_floor.copy()
+    is_held[around.target[meets & is_near]] = True
+    is_within = (container[around.target] < 0) | _are_within(boxed, around.anchor, container[around.target])
+    is_within &= container[around.anchor] != around.target
+    near = select_rows(around, is_near | (meets & is_within & ~is_held[around.target]))
     contacts = select_rows(near, np.abs(near.gap) <= near.allowed)
     broad = contacts.ratio > rules.on.min_overlap_ratio
     fits = broad & (boxed.area[contacts.target] < rules.on.max_area_ratio * boxed.area[contacts.anchor])
@@ -130,16 +136,37 @@ def find_support(
     return Support([_on_single(boxed, select_rows(contacts, fits), rules.on), several], near, at_floor)
 
 
-def find_hovering(boxed: BoxedObjects, near: _Contacts, is_left: Mask, rules: RelationRules) -> Links:
-    """Return the `on` links across a small gap, of the objects of a mask."""
+def _are_within(boxed: BoxedObjects, inner: Indices, outer: Indices) -> Mask:
+    """Return for each pair whether the middle of the first is in the box of another one, which is smaller than that."""
+    middle = boxed.middle[inner]
+    is_in = ((middle >= boxed.lower[outer]) & (middle <= boxed.upper[outer])).all(axis=1)
+    return np.asarray(is_in & (boxed.volume[inner] < boxed.volume[outer]) & (inner != outer))
+
+
+def find_hovering(
+    boxed: BoxedObjects, near: _Contacts, is_left: Mask, container: Indices, rules: RelationRules
+) -> Links:
+    """Return the `on` links across a small gap, or with few feet, of the objects of a mask."""
     rule, near = rules.hovering, select_rows(near, is_left[near.target])
+    touched = _partly_supported(boxed, select_rows(near, container[near.target] >= 0), rules)
+    near = select_rows(near, ~np.isin(near.target, touched.target))
     fits = boxed.area[near.target] < rules.on.max_area_ratio * boxed.area[near.anchor]
     is_good = fits & (near.gap >= 0) & (near.gap <= rule.max_gap) & (near.ratio >= rule.min_overlap_ratio)
     near = select_rows(near, is_good)
     keys = (boxed.rank[near.anchor], -rounded(near.ratio), rounded(near.gap))
-    best = select_rows(near, first_of_each_group(near.target, keys))
+    best = concatenate_rows([select_rows(near, first_of_each_group(near.target, keys)), touched])
     over = margin_above(best.ratio, rule.min_overlap_ratio)
     return _links(rule.rule, best, margin_score(margin_below(best.gap, rule.max_gap), over))
+
+
+def _partly_supported(boxed: BoxedObjects, near: _Contacts, rules: RelationRules) -> _Contacts:
+    """Return the contacts of contents that no single surface supports: a roll on several rolls, a can on a wire."""
+    touching = select_rows(near, (np.abs(near.gap) <= near.allowed) & (near.ratio > 0))
+    shared = np.bincount(touching.target, touching.ratio, minlength=len(boxed))
+    is_good = _are_balanced(boxed, touching) | (shared > rules.on.min_overlap_ratio)[touching.target]
+    touching = select_rows(touching, is_good & (touching.ratio >= rules.hovering.min_touching_ratio))
+    keys = (boxed.rank[touching.anchor], -rounded(touching.ratio))
+    return select_rows(touching, first_of_each_group(touching.target, keys))
 
 
 def are_unbalanced(boxed: BoxedObjects, links: Links) -> Mask:
@@ -347,7 +374,29 @@ def _pointers(boxed: BoxedObjects, contacts: _Contacts) -> Indices:
 
 
 def _best(boxed: BoxedObjects, contacts: _Contacts) -> _Contacts:
-    """Return each target's contact with the surface whose underside is highest, of those that it does not pierce."""
+    """Return each target's contact with what is best to support it.
+
+    That is the surface whose underside is highest, of those that the target does not pierce; but rather what rests on
+    that itself, such as a tray pressed into a tablecloth.
+    """
+    best = _highest(boxed, contacts)
+    support = _pointers(boxed, best)
+    pairs = contacts.target * len(boxed) + contacts.anchor
+    is_mutual = np.isin(contacts.anchor * len(boxed) + contacts.target, pairs)
+    is_larger = boxed.area[contacts.anchor] > boxed.area[contacts.target]
+    rests_there = (support[contacts.anchor] == support[contacts.target]) & (is_larger | ~is_mutual)
+    level = np.full(len(boxed), -np.inf)
+    level[best.target] = best.upper[:, 2]
+    rests_there &= contacts.upper[:, 2] >= level[contacts.target] - _ROUNDING
+    ratio = np.zeros(len(boxed))
+    ratio[best.target] = best.ratio
+    rests_there &= rounded(contacts.ratio) >= rounded(ratio[contacts.target])
+    over = _highest(boxed, select_rows(contacts, rests_there))
+    kept = select_rows(best, ~np.isin(best.target, over.target))
+    return concatenate_rows([kept, over])
+
+
+def _highest(boxed: BoxedObjects, contacts: _Contacts) -> _Contacts:
     owner, lowest = contacts.anchor, contacts.lower[:, 2]
     is_pierced = boxed.lower[owner, 2] > boxed.lower[contacts.target, 2] + _PIERCED
     keys = (boxed.rank[owner], -rounded(contacts.ratio), rounded(np.abs(contacts.gap)), -rounded(lowest), is_pierced)

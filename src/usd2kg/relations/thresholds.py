@@ -72,6 +72,7 @@ class HoveringRule(NamedTuple):
     rule: str
     max_gap: float
     min_overlap_ratio: float
+    min_touching_ratio: float
 
 
 class InsideRule(NamedTuple):
