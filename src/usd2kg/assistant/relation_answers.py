@@ -12,7 +12,7 @@ from usd2kg.query.lookup import Things, UnknownWordError
 from usd2kg.query.lookup.body_measures import BodyMeasures
 from usd2kg.query.lookup.directions import find_beside, find_between
 from usd2kg.query.lookup.prepositions import is_direct, relation_of
-from usd2kg.query.lookup.related_things import find_above, find_parts, find_related
+from usd2kg.query.lookup.related_things import find_above, find_over_covers, find_parts, find_related
 from usd2kg.query.lookup.word_forms import is_plural, split_phrase
 from usd2kg.query.settings import DIRECTIONS
 
@@ -100,6 +100,8 @@ class RelationAnswers(Answers):
         anchors = self._anchors(name, thing)
         understood = f"{'things' if what is None else what.text} {PREPOSITIONS[name]} {anchors.text}"
         found = self._by_relation(name, thing, anchors, is_direct=what is None or is_direct(relation))
+        if what is None and name == "on" and not is_direct(relation):
+            found = found | find_over_covers(facts, anchors.iris)
         chosen, note = self._completed(name, found, anchors.iris, what)
         notes = f"{what.suffix if what else ''}{anchors.suffix}{note}"
         place = f"{'directly ' if is_direct(relation) else ''}{PREPOSITIONS[name]} {self._things.the(anchors)}"
@@ -128,6 +130,8 @@ class RelationAnswers(Answers):
         what = None if iris is None else Things(tuple(iris), "")
         others = Things(tuple(anchors), "")
         found = self._of_anchors(name, others, is_direct=is_direct or iris is None)
+        if iris is None and name == "on" and not is_direct:
+            found = found | find_over_covers(self._facts, anchors)
         chosen, _ = self._completed(name, found, anchors, what)
         return set(chosen)
 

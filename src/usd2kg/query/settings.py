@@ -61,6 +61,7 @@ class DirectionSettings(NamedTuple):
     tolerance: float
     vertical: float
     feet: float
+    cover: float
 
 
 class ComplexitySettings(NamedTuple):

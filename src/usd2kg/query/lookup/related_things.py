@@ -4,10 +4,11 @@ from collections.abc import Iterable
 
 import numpy as np
 
+from usd2kg.query.body_table import Body
 from usd2kg.query.lookup.facts import SceneFacts
 from usd2kg.query.settings import DIRECTIONS
 
-__all__ = ["find_above", "find_below", "find_parts", "find_related"]
+__all__ = ["find_above", "find_below", "find_over_covers", "find_parts", "find_related"]
 
 
 def find_related(facts: SceneFacts, relation: str, anchors: Iterable[str], *, is_direct: bool) -> set[str]:
@@ -25,6 +26,28 @@ def find_related(facts: SceneFacts, relation: str, anchors: Iterable[str], *, is
             found.add(iri)
             waiting.extend(one for name in ("on", "inside") for one in facts.related(name, iri))
     return found
+
+
+def find_over_covers(facts: SceneFacts, anchors: Iterable[str]) -> set[str]:
+    """Return what is on the covers of things, such as a tablecloth, and on the covers of these.
+
+    A cover is low, and over more than half of what it is on.
+    """
+    covers: set[str] = set()
+    waiting = {*anchors}
+    while waiting:
+        near = {(one, iri) for iri in waiting for one in facts.related("on", iri)}
+        waiting = {one for one, iri in near if _covers(facts.body(one), facts.body(iri))} - covers
+        covers |= waiting
+    return {one for cover in covers for one in facts.related("on", cover)}
+
+
+def _covers(cover: Body, body: Body) -> bool:
+    if cover.lower is None or cover.upper is None or body.lower is None or body.upper is None:
+        return False
+    shared = (np.minimum(cover.upper, body.upper) - np.maximum(cover.lower, body.lower))[:2]
+    is_over = bool((shared > 0).all()) and 2 * shared.prod() > (body.upper - body.lower)[:2].prod()
+    return is_over and bool(cover.upper[2] - body.upper[2] <= DIRECTIONS.cover)
 
 
 def find_parts(facts: SceneFacts, wholes: Iterable[str]) -> set[str]:
