@@ -40,9 +40,14 @@ class ClassMembership:
         """Return for each object whether one of its classes or their superclasses is in the list `name`."""
         items: tuple[str, ...] = getattr(self._names, name)
         exact = {expand_curie(item[1:]) for item in items if item.startswith("=")}
-        whole = {expand_curie(item) for item in items if not item.startswith("=")}
+        whole = self.items_of(name)
         is_in = [not (exact.isdisjoint(kind.own) and whole.isdisjoint(kind.above)) for kind in self._known]
         return np.array(is_in, np.bool_)[self._which]
+
+    def items_of(self, name: str) -> frozenset[str]:
+        """Return the IRIs of the list `name` that include subclasses."""
+        items: tuple[str, ...] = getattr(self._names, name)
+        return frozenset(expand_curie(item) for item in items if not item.startswith("="))
 
     @cached_property
     def are_drawers(self) -> Mask:

@@ -39,6 +39,7 @@ from usd2kg.relations.model import ALL_KINDS, ROOM_KINDS, SYMMETRIC_KINDS, VIEWP
 from usd2kg.relations.object_kinds import find_kinds
 from usd2kg.relations.openings import find_openings
 from usd2kg.relations.options import RelationOptions
+from usd2kg.relations.part_nouns import find_noun_concepts
 from usd2kg.relations.part_of import PartLinks, find_parts, wholes_of
 from usd2kg.relations.plan_membership import find_plan_members
 from usd2kg.relations.room_membership import find_rooms, placed_in_rooms
@@ -79,6 +80,7 @@ class _Finder:
         self.rules = options.chosen_rules
         self.viewpoint = options.viewpoint
         self.classes = ClassMembership(self.rules.classes, find_kinds(scene, tbox, grounding))
+        self.nouns = find_noun_concepts(scene, grounding, self.rules.part_of)
         self.boxed = BoxedObjects(scene.objects, self.rules.geometry, scene.surfaces)
         self.groups: list[str] = []
         """Paths of the group prims that are rooms, or names of the derived rooms."""
@@ -86,7 +88,7 @@ class _Finder:
 
     def find(self, kinds: frozenset[str]) -> Iterator[Links]:
         """Yield the links of the kinds, and possibly of others; indices count all objects, then the groups."""
-        parts = find_parts(self.scene, self.boxed, self.classes, self.rules.part_of)
+        parts = find_parts(self.scene, self.boxed, self.classes, self.nouns, self.rules.part_of)
         yield from parts
         if len(self.boxed) and kinds - {"part-of"}:
             for links in self._of_boxed(kinds, parts):

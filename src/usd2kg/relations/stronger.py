@@ -31,6 +31,7 @@ class StrongerRelations:
         """One supporter of each object; -1 for none."""
         self.is_attached = np.zeros(len(boxed), np.bool_)
         """Whether each object is attached to another."""
+        self._whole = np.full(len(boxed), -1)
         self._part_keys = np.concatenate([self._keep_parts(*boxed_ends(boxed, links)) for links in parts])
         self._keys = [self._part_keys, *(self._key(links.target, links.anchor) for links in containment.links)]
         moved, _ = boxed_ends(boxed, parts.stated)
@@ -39,15 +40,38 @@ class StrongerRelations:
     def _keep_parts(self, part: Indices, whole: Indices) -> Indices:
         known = (part >= 0) & (whole >= 0)
         self.frame[part[known]] = whole[known]
+        self._whole[part[known]] = whole[known]
         return self._key(part[known], whole[known])
 
     def add_support(self, support: list[Links]) -> list[Links]:
-        """Record `on` links and return them without those from a part to its own whole."""
+        """Record `on` links and return them without those between a part and its own whole.
+
+        A whole that stands on its parts is on what these stand on: a trolley on casters is on the floor.
+        """
+        support = self._pass_on(support)
         kept = [links.where(~np.isin(self._key(links.target, links.anchor), self._part_keys)) for links in support]
         for links in reversed(kept):
             self.supporter[links.target] = links.anchor
             self._keys.append(self._key(links.target, links.anchor))
         return kept
+
+    def _pass_on(self, support: list[Links]) -> list[Links]:
+        """Return `on` links with what a part is on instead of the part, where its own whole is on it."""
+        below = np.full(self._count, -1)
+        for links in reversed(support):
+            is_outside = links.anchor != self._whole[links.target]
+            below[links.target[is_outside]] = links.anchor[is_outside]
+        passed: list[Links] = []
+        known = np.zeros(0, np.int64)
+        for links in support:
+            is_own = (self._whole[links.anchor] == links.target) & (below[links.anchor] >= 0)
+            anchor = np.where(is_own, below[links.anchor], links.anchor)
+            key = links.target * self._count + anchor
+            is_new = ~np.isin(key, known) & (anchor != links.target)
+            is_new[np.setdiff1d(np.arange(len(key)), np.unique(key, return_index=True)[1])] = False
+            known = np.concatenate([known, key])
+            passed.append(links._replace(anchor=anchor).where(is_new))
+        return passed
 
     def replace_support(self, support: list[Links], links: Links) -> list[Links]:
         """Record `attached-to` links instead of the support of their targets, and return the `on` links left."""

@@ -245,6 +245,17 @@ class PartOfRule(NamedTuple):
     max_gap: float
     min_slid_in: float
     min_covered: float
+    min_shut: float
+    max_shelf_gap: float
+    min_hinge: float
+    max_hinge_gap: float
+    min_raised: float
+    max_leaning: float
+    min_beneath: float
+    min_upright: float
+    directions: tuple[str, ...]
+    faces: tuple[str, ...]
+    prepositions: tuple[str, ...]
 
 
 class ClassLists(NamedTuple):
@@ -277,6 +288,15 @@ class ClassLists(NamedTuple):
     not_wholes: tuple[str, ...]
     fronts: tuple[str, ...]
     bodies: tuple[str, ...]
+    front_concepts: tuple[str, ...]
+    handle_concepts: tuple[str, ...]
+    front_fittings: tuple[str, ...]
+    shelves: tuple[str, ...]
+    lids: tuple[str, ...]
+    casters: tuple[str, ...]
+    fittings: tuple[str, ...]
+    lamp_parts: tuple[str, ...]
+    lamps: tuple[str, ...]
     frames: tuple[str, ...]
     handles: tuple[str, ...]
     containment_disposition: str

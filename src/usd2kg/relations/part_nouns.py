@@ -1,0 +1,72 @@
+"""The concepts that the last noun of a name means: of a compound that names a part, the head is the last noun.
+
+The grounder may take another word for the head, since names of prims often begin with the place or the whole:
+`sink_door` has the class of sinks, `drawer_fork` that of drawers.
+"""
+
+from functools import lru_cache
+from itertools import takewhile
+from typing import NamedTuple
+
+from usd2kg.grounding import Grounding, Status, concepts_named
+from usd2kg.relations.thresholds import PartOfRule
+from usd2kg.scene import Scene
+from usd2kg.words import words_of
+
+__all__ = ["NounConcepts", "find_noun_concepts"]
+
+_MANY_NAMES = 1 << 14
+
+
+class NounConcepts(NamedTuple):
+    """IRIs of the concepts that words of a name mean, with all their hypernyms."""
+
+    usual: frozenset[str] = frozenset()
+    """Of the last noun in its usual sense, and of the compound that it makes with the word before; empty for an unknown
+    noun."""
+    possible: frozenset[str] = frozenset()
+    """Of the last noun in any sense."""
+    before: frozenset[str] = frozenset()
+    """Of the words before it, in their usual senses."""
+
+
+def find_noun_concepts(scene: Scene, grounding: Grounding, rule: PartOfRule) -> list[NounConcepts]:
+    """Return for each object what the nouns of its name mean; nothing where a person chose the class."""
+    directions, faces = frozenset(rule.directions), frozenset(rule.faces)
+    prepositions = frozenset(rule.prepositions)
+    found: list[NounConcepts] = []
+    for obj in scene.objects:
+        prediction = grounding.by_path.get(obj.prim_path)
+        is_decided = prediction is not None and prediction.status is Status.REVIEWED
+        words = () if is_decided else words_of(obj.prim_path.rpartition("/")[2])
+        words = tuple(takewhile(lambda word: word not in prepositions, words))
+        while words and words[-1] in directions:
+            words = words[:-1]
+        found.append(NounConcepts() if not words or words[-1] in faces else _concepts_of(words))
+    return found
+
+
+@lru_cache(maxsize=_MANY_NAMES)
+def _concepts_of(words: tuple[str, ...]) -> NounConcepts:
+    return NounConcepts(
+        _usual_concepts(words[-1]) | _usual_concepts(" ".join(words[-2:])),
+        _all_concepts(words[-1]),
+        frozenset().union(*map(_usual_concepts, words[:-1])),
+    )
+
+
+@lru_cache(maxsize=_MANY_NAMES)
+def _usual_concepts(noun: str) -> frozenset[str]:
+    return _with_hypernyms(concepts_named(noun)[:1])
+
+
+@lru_cache(maxsize=_MANY_NAMES)
+def _all_concepts(noun: str) -> frozenset[str]:
+    return _with_hypernyms(concepts_named(noun))
+
+
+def _with_hypernyms(iris: tuple[str, ...]) -> frozenset[str]:
+    # Imported here, since it reads the noun taxonomy.
+    from usd2kg.grounding.lexical.recognition import describe_concepts  # noqa: PLC0415
+
+    return frozenset(describe_concepts(iris))
