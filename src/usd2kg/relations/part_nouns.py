@@ -8,14 +8,14 @@ from functools import lru_cache
 from itertools import takewhile
 from typing import NamedTuple
 
-from usd2kg.grounding import Grounding, Status, concepts_named
+from usd2kg.grounding import Grounding, NamingRegime, Status, concepts_named
 from usd2kg.relations.thresholds import PartOfRule
 from usd2kg.scene import Scene
 from usd2kg.words import words_of
 
 __all__ = ["NounConcepts", "find_noun_concepts"]
 
-_MANY_NAMES = 1 << 14
+_MANY_NAMES = 1 << 12
 
 
 class NounConcepts(NamedTuple):
@@ -31,7 +31,12 @@ class NounConcepts(NamedTuple):
 
 
 def find_noun_concepts(scene: Scene, grounding: Grounding, rule: PartOfRule) -> list[NounConcepts]:
-    """Return for each object what the nouns of its name mean; nothing where a person chose the class."""
+    """Return for each object what the nouns of its name mean.
+
+    Nothing where a person chose the class, and where the grounding did not see the names.
+    """
+    if not _saw_names(grounding):
+        return [NounConcepts()] * len(scene.objects)
     directions, faces = frozenset(rule.directions), frozenset(rule.faces)
     prepositions = frozenset(rule.prepositions)
     found: list[NounConcepts] = []
@@ -44,6 +49,12 @@ def find_noun_concepts(scene: Scene, grounding: Grounding, rule: PartOfRule) -> 
             words = words[:-1]
         found.append(NounConcepts() if not words or words[-1] in faces else _concepts_of(words))
     return found
+
+
+def _saw_names(grounding: Grounding) -> bool:
+    regime = NamingRegime(grounding.settings.get("regime", NamingRegime.SEMANTIC))
+    groups = grounding.settings.get("evidence")
+    return regime is NamingRegime.SEMANTIC and (not groups or "name" in groups.split(","))
 
 
 @lru_cache(maxsize=_MANY_NAMES)

@@ -68,7 +68,10 @@ def find_roles(boxed: BoxedObjects, classes: ClassMembership, nouns: Sequence[No
     is_other_noun = (known.by_noun("handle_concepts") | known.by_noun("front_fittings")) & ~is_front_noun
     is_other_noun |= known.are_only_modified("front_concepts")
     is_case = known.by_class("cases") & ~is_drawer
-    is_drawer &= ~is_other_noun
+    # A cupboard may be named after its drawers: `Pedestal_3Drawer`.
+    is_named_drawer = known.by_noun("not_laid") & ~is_tool
+    is_front_noun &= ~(is_named_drawer & known.by_class("bodies"))
+    is_drawer = (is_drawer & ~is_other_noun) | (is_named_drawer & is_front_noun)
     is_front = (known.by_class("fronts") & ~is_other_noun) | (is_front_noun & ~is_tool & ~known.by_class("frames"))
     is_front = (is_front & ~is_case) | is_drawer
     is_handle = known.by_class("handles") | (known.by_either("handle_concepts") & ~is_loose)
@@ -81,7 +84,7 @@ def find_roles(boxed: BoxedObjects, classes: ClassMembership, nouns: Sequence[No
         drawer=is_drawer,
         handle=is_handle,
         front_fitting=known.by_either("front_fittings") & ~is_loose & ~is_front & ~is_handle,
-        shelf=(known.by_class("shelves") | (known.by_noun("shelves") & ~is_loose)) & ~is_front & ~is_handle,
+        shelf=known.by_either("shelves") & ~is_tool & ~is_front & ~is_handle,
         lid=known.by_either("lids") & ~is_front & ~is_handle,
         caster=known.by_either("casters"),
         fitting=known.by_either("fittings"),
