@@ -279,6 +279,9 @@ class TestShelves:
         assert self.in_case("plank", (0.03, 0.05, 0.9), (0.74, 0.3, 0.02)) == set()
         assert self.in_case("box", (0.03, 0.05, 0.9), (0.74, 0.3, 0.2)) == set()
 
+    def test_a_rack_that_is_pulled_out_by_a_half_is_a_part(self):
+        assert self.in_case("rack", (0.03, -0.16, 0.9), (0.74, 0.3, 0.02)) == {("/R/w/rack", "/R/w/case")}
+
     def test_a_shelf_that_sticks_out_is_not(self):
         assert self.in_case("shelf", (0.03, -0.25, 0.9), (0.74, 0.3, 0.02)) == set()
 
