@@ -68,7 +68,7 @@ def find_inside(boxed: BoxedObjects, classes: ClassMembership, wholes: Indices, 
     has_parts = bool((wholes >= 0).any())
     is_open = can_contain & ~classes.are_in("closed")[boxed.scene_index]
     never = (
-        (classes.are_in("not_containers") & ~classes.are_in("lids"))
+        (classes.are_in("not_containers") & ~classes.are_in("covers"))
         | classes.are_in("walls")
         | classes.are_in("not_neighbours")
     )
@@ -95,7 +95,7 @@ def find_inside(boxed: BoxedObjects, classes: ClassMembership, wholes: Indices, 
             stands = is_around | (may & ~is_open[anchor] & boxed.has_surface[anchor])
             found.append(_by_surface(_standing(boxed, target[stands], anchor[stands], rules.standing_in)))
     pairs = concatenate_rows(found)
-    pairs = select_rows(pairs, ~_are_lids(boxed, pairs, classes.are_in("lids")[boxed.scene_index]))
+    pairs = select_rows(pairs, ~_are_lids(boxed, pairs, classes.are_in("covers")[boxed.scene_index]))
     agreement = _surfaces_agree(boxed, pairs, is_open, wholes, rules)
     agrees = agreement.agrees | _are_on_contents(boxed, pairs, agreement, rules)
     pairs, is_covered = select_rows(pairs, agrees), agreement.is_covered[agrees]

@@ -267,7 +267,7 @@ class ClassLists(NamedTuple):
     tools: tuple[str, ...]
     not_supporting: tuple[str, ...]
     not_bearing: tuple[str, ...]
-    lids: tuple[str, ...]
+    covers: tuple[str, ...]
     grounds: tuple[str, ...]
     walls: tuple[str, ...]
     mounts: tuple[str, ...]
