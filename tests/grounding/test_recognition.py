@@ -49,6 +49,9 @@ class TestWords:
             ("HouseWallB_01", "wall"),
             # The head noun comes first.
             ("plate_dinner", "dinner plate"),
+            # Words that describe others name an object where they are alone.
+            ("safe", "safe"),
+            ("notepad", "notepad"),
             # Spanish for fork.
             ("tenedor", "fork"),
         ],
@@ -62,6 +65,13 @@ class TestWords:
 
     def test_an_asset_names_it_where_the_name_does_not(self):
         assert concept_of("obj_042", asset=("teapot",)) == "teapot"
+
+    @pytest.mark.parametrize(
+        ("name", "concept"), [("Mesh_03", "mug"), ("xqzt", "mug"), ("red", None), ("safe", "safe")]
+    )
+    def test_a_group_names_its_members_only_if_their_names_do_not(self, name: str, concept: str | None):
+        scene = make_scene(make_object("/World/mugs", kind="group"), make_object(f"/World/mugs/{name}"))
+        assert concepts_of(ground(scene, HALL))[f"/World/mugs/{name}"] == concept
 
     def test_parts_do_not_name_the_whole(self):
         assert concept_of("obj_042", parts=("seat", "backrest")) is None

@@ -103,6 +103,9 @@ class ConceptRecognizer:
             is_name = group == "name"
             if group == "parts" or (is_name and is_generated_name(text)):
                 continue
+            if group == "hierarchy" and not is_generated_name(words.name) and self._is_spelled_out(words.name):
+                # The notepad in the group of nightstands is none.
+                return None
             extent = extent_of(words.extent.size) if is_name and words.extent is not None else None
             found = self._recognize_text(text.rstrip("0123456789_"), words.parents if is_name else (), extent)
             if found is not None:
@@ -139,7 +142,11 @@ class _SenseMatcher:
         """
         *before, last = words
         singular = self._taxonomy.singular(last)
-        for start in range(len(before) if self._reader.kinds.is_modifier(last) else len(words)):
+        # A word alone is no modifier: a safe, a notepad.
+        may_be_head = not self._reader.kinds.is_modifier(last) or (
+            not before and self._reader.kinds.is_object(singular)
+        )
+        for start in range(len(words) if may_be_head else len(before)):
             key = "".join(before[start:]) + singular
             matches = self._match_noun(key, start < len(before))
             if not matches and key in home_words().compounds:
