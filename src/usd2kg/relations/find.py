@@ -99,7 +99,8 @@ class _Finder:
         containment = find_inside(self.boxed, self.classes, wholes, self.rules)
         yield from containment.links
         stronger = StrongerRelations(self.boxed, containment, parts)
-        support = find_support(self.boxed, self.classes, stronger.is_loose, containment.container, self.rules)
+        loose, container = stronger.is_loose, containment.container
+        support = find_support(self.boxed, self.classes, loose, container, wholes, self.rules)
         resting = stronger.add_support(support.links)
         # What would tip over and touches a wall hangs there.
         tipping = resting[0].target[are_unbalanced(self.boxed, resting[0])]

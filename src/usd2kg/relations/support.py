@@ -92,7 +92,12 @@ class Support(NamedTuple):
 
 
 def find_support(
-    boxed: BoxedObjects, classes: ClassMembership, is_loose: Mask, container: Indices, rules: RelationRules
+    boxed: BoxedObjects,
+    classes: ClassMembership,
+    is_loose: Mask,
+    container: Indices,
+    wholes: Indices,
+    rules: RelationRules,
 ) -> Support:
     """Return the `on` links of the objects that touch what supports them.
 
@@ -104,6 +109,7 @@ def find_support(
         classes: membership in class lists.
         is_loose: for each object, whether it may rest on another.
         container: index of the container of each object, -1 for none.
+        wholes: index of the whole of each object, -1 for none.
         rules: the thresholds.
     """
     grounds = classes.are_in("grounds")[boxed.scene_index]
@@ -127,6 +133,7 @@ def find_support(
     is_within &= container[around.anchor] != around.target
     near = select_rows(around, is_near | (meets & is_within & ~is_held[around.target]))
     contacts = select_rows(near, np.abs(near.gap) <= near.allowed)
+    contacts = select_rows(contacts, ~_are_of_wholes(boxed, contacts, wholes))
     broad = contacts.ratio > rules.on.min_overlap_ratio
     fits = broad & (boxed.area[contacts.target] < rules.on.max_area_ratio * boxed.area[contacts.anchor])
     bears = ~classes.are_in("not_bearing")[boxed.scene_index][contacts.anchor]
@@ -134,6 +141,18 @@ def find_support(
     several = _on_several(boxed, select_rows(contacts, is_left & bears), rules)
     fits |= broad & bears & _are_balanced(boxed, contacts) & ~np.isin(contacts.target, several.target)
     return Support([_on_single(boxed, select_rows(contacts, fits), rules.on), several], near, at_floor)
+
+
+def _are_of_wholes(boxed: BoxedObjects, contacts: _Contacts, wholes: Indices) -> Mask:
+    """Return for each contact whether the anchor is a part of another anchor that reaches as high: a cabinet's door."""
+    is_part = wholes[contacts.anchor] >= 0
+    near = np.flatnonzero(np.isin(contacts.target, contacts.target[is_part]))
+    keys = contacts.target[near] * len(boxed) + contacts.anchor[near]
+    level = dict(zip(keys.tolist(), contacts.upper[near, 2].tolist(), strict=True))
+    for row in np.flatnonzero(is_part).tolist():
+        whole = int(contacts.target[row] * len(boxed) + wholes[contacts.anchor[row]])
+        is_part[row] = level.get(whole, -np.inf) >= contacts.upper[row, 2] - _ROUNDING
+    return np.asarray(is_part)
 
 
 def _are_within(boxed: BoxedObjects, inner: Indices, outer: Indices) -> Mask:
