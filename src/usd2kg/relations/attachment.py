@@ -9,6 +9,7 @@ from usd2kg.relations.array_records import concatenate_rows, first_of_each_group
 from usd2kg.relations.backing import are_between
 from usd2kg.relations.boxed_objects import BoxedObjects, ClassMembership
 from usd2kg.relations.distances import box_gaps, exact_distances, surface_distances
+from usd2kg.relations.fixtures import are_in_front_of_fixtures
 from usd2kg.relations.holding import (
     Mounts,
     are_carried_by_target,
@@ -88,6 +89,7 @@ def find_attached(
     is_free &= ~is_mount
     pairs = pairs._replace(locks=touches & ~are_closer_to_mounts(pairs, is_free, is_mount, rule))
     at_mount = pairs.target[is_mount[pairs.anchor]]
+    pairs = _with_fixtures(boxed, pairs, targets[~(hangs | is_mount)[targets]], is_mount, stronger, rule)
     pairs = select_rows(pairs, ~_are_backed(boxed, pairs, is_mount, rule))
     pairs = select_rows(pairs, ~are_carried_by_target(pairs, is_free, is_mount, rule))
     pairs = select_rows(pairs, ~are_farther_than_holder(boxed, pairs, is_free, is_mount, hangs, rule))
@@ -166,6 +168,64 @@ def _high_enough(boxed: BoxedObjects, classes: ClassMembership, targets: Indices
     clearance = np.where(classes.are_in("standing")[boxed.scene_index], rule.max_plinth, rule.min_clearance)
     clearance[classes.are_in("hanging")[boxed.scene_index]] = 0.0
     return np.asarray(targets[boxed.lower[targets, 2] - _ground_below(boxed, targets, rule) >= clearance[targets]])
+
+
+def _with_fixtures(
+    boxed: BoxedObjects,
+    pairs: Mounts,
+    targets: Indices,
+    is_mount: Mask,
+    stronger: StrongerRelations,
+    rule: AttachedRule,
+) -> Mounts:
+    """Return the pairs with a fixture in place of the wall or ceiling behind it, which carries the fixture.
+
+    Args:
+        boxed: the objects.
+        pairs: pairs of an object and what may hold it.
+        targets: the objects that fixtures may hold.
+        is_mount: whether each object is a wall or ceiling.
+        stronger: the relations found so far.
+        rule: the thresholds.
+    """
+    at_wall = np.flatnonzero(is_mount[pairs.anchor] & (pairs.gap <= rule.max_contact))
+    keys = (boxed.rank[pairs.anchor[at_wall]], rounded(pairs.gap[at_wall]))
+    at_wall = at_wall[first_of_each_group(pairs.target[at_wall], keys)]
+    place = np.full(len(boxed), -1)
+    place[pairs.target[at_wall]] = at_wall
+    found = _touching(boxed, targets, pairs.target[at_wall], rule)
+    found = select_rows(found, ~stronger.are_related(found.target, found.anchor))
+    found = select_rows(found, ~_are_held_by_target(boxed, found, stronger.holder))
+    wall = pairs.anchor[place[found.anchor]]
+    count = len(boxed)
+    keys = pairs.target * count + pairs.anchor
+    order = np.argsort(keys, kind="stable")
+    to_wall = np.append(order, -1)[np.searchsorted(keys[order], found.target * count + wall)]
+    is_known = np.append(keys, -1)[to_wall] == found.target * count + wall
+    gap = np.where(is_known, np.append(pairs.gap, np.inf)[to_wall], np.inf)
+    holds = are_in_front_of_fixtures(boxed, found.target, found.anchor, wall, gap, pairs.gap[place[found.anchor]], rule)
+    found, wall = select_rows(found, holds), wall[holds]
+    replaced = np.concatenate(
+        [found.target * count + wall, found.target * count + found.anchor, found.anchor * count + found.target]
+    )
+    return concatenate_rows([select_rows(pairs, ~np.isin(keys, replaced)), found])
+
+
+def _touching(boxed: BoxedObjects, targets: Indices, holders: Indices, rule: AttachedRule) -> Mounts:
+    """Return the pairs of different objects that touch, measured exactly, as if they interlocked."""
+    none, no = np.zeros(0, np.int64), np.zeros(0, np.bool_)
+    found = [Mounts(none, none, np.zeros(0), np.zeros(0), no, no, no)]
+    lower, upper = boxed.lower - rule.max_touch, boxed.upper + rule.max_touch
+    for i, j in overlapping_pairs(lower[targets], upper[targets], (boxed.lower[holders], boxed.upper[holders])):
+        target, anchor = targets[i], holders[j]
+        no = np.zeros(len(target), np.bool_)
+        limit = np.full(len(target), rule.max_touch)
+        pairs = Mounts(target, anchor, np.zeros(len(target)), limit, no, ~no, no)
+        found.append(select_rows(pairs, target != anchor))
+    pairs = concatenate_rows(found)
+    gap = surface_distances(boxed, pairs.target, pairs.anchor, pairs.limit)
+    pairs = select_rows(pairs._replace(gap=gap), gap <= pairs.limit)
+    return _measured_exactly(boxed, pairs, np.zeros(len(boxed), np.bool_))
 
 
 def _measured_exactly(boxed: BoxedObjects, pairs: Mounts, is_mount: Mask) -> Mounts:
@@ -262,7 +322,10 @@ def _near_pairs(
     others = boxed.lower[holders], boxed.upper[holders]
     for i, j in overlapping_pairs(lower[targets], upper[targets], others):
         target, anchor = targets[i], holders[j]
-        hangs = boxed.lower[anchor, 2] >= boxed.middle[target, 2]
+        gaps = box_gaps(boxed, target, anchor)
+        # A valve at the upper end of a radiator is beside it.
+        is_beside = (gaps[:, 2] < 0) & (gaps[:, :2] > 0).any(axis=1)
+        hangs = (boxed.lower[anchor, 2] >= boxed.middle[target, 2]) & ~is_beside
         limit = np.where(is_mount[anchor], reach[target], rule.max_contact)
         is_near = (lower[target, 2] <= boxed.upper[anchor, 2]) & (upper[target, 2] >= boxed.lower[anchor, 2])
         locks = ~is_mount[anchor] & are_interlocked(boxed, target, anchor, rule.min_interlock)

@@ -7,7 +7,7 @@ from usd2kg.relations.boxed_objects import BoxedObjects
 from usd2kg.relations.enclosure import points_of
 from usd2kg.shapes.axis_rays import find_crossings
 
-__all__ = ["are_between"]
+__all__ = ["are_between", "first_hits"]
 
 Array = NDArray[np.float64]
 Indices = NDArray[np.int64]
@@ -33,8 +33,8 @@ def are_between(boxed: BoxedObjects, between: Indices, target: Indices, wall: In
     points = {index: points_of(boxed, index) for index in np.unique(target[rows]).tolist()}
     starts = [points[index] for index in target[rows].tolist()]
     count = np.array([len(some) for some in starts], np.int64)
-    to_wall = _first_hits(boxed, starts, wall[rows])
-    to_other = _first_hits(boxed, starts, between[rows])
+    to_wall = first_hits(boxed, starts, wall[rows])
+    to_other = first_hits(boxed, starts, between[rows])
     row = np.repeat(np.arange(len(rows)), count)
     reach = np.full((len(rows), to_wall.shape[1]), np.inf)
     np.minimum.at(reach, row, to_wall)
@@ -46,7 +46,7 @@ def are_between(boxed: BoxedObjects, between: Indices, target: Indices, wall: In
     return found
 
 
-def _first_hits(boxed: BoxedObjects, points: list[Array], others: Indices) -> Array:
+def first_hits(boxed: BoxedObjects, points: list[Array], others: Indices) -> Array:
     """Return how far it is from each point to an object (points, directions), against and along x, y and z; else inf.
 
     An object without a surface is as far as the faces of its box, beside the point or not.

@@ -1,0 +1,59 @@
+"""Fixtures: what is between an object and the wall, and holds it: an outlet its plug, an arm its television."""
+
+import numpy as np
+from numpy.typing import NDArray
+
+from usd2kg.relations.backing import first_hits
+from usd2kg.relations.boxed_objects import BoxedObjects
+from usd2kg.relations.thresholds import AttachedRule
+
+__all__ = ["are_in_front_of_fixtures"]
+
+Array = NDArray[np.float64]
+Indices = NDArray[np.int64]
+Mask = NDArray[np.bool_]
+
+_ROUNDING = 1e-6
+"""Metres: extents that differ by less are equal."""
+
+
+def are_in_front_of_fixtures(
+    boxed: BoxedObjects,
+    target: Indices,
+    fixture: Indices,
+    wall: Indices,
+    gap: Array,
+    fixture_gap: Array,
+    rule: AttachedRule,
+) -> Mask:
+    """Return for each row whether the fixture is between the target, which touches it, and the wall or ceiling.
+
+    As seen from the wall, the middle of the target is farther away than that of the fixture and in front of it. If the
+    target touches the wall as well or passes into it, as a plug does, the fixture is around nearly all of it there;
+    else it is closer to the wall than the target.
+
+    Args:
+        boxed: the objects.
+        target: indices of objects that touch the fixtures.
+        fixture: indices of objects at the walls.
+        wall: indices of the walls or ceilings.
+        gap: metres from the target to the wall; inf if it is out of reach.
+        fixture_gap: metres from the fixture to the wall.
+        rule: the thresholds.
+    """
+    if not len(target):
+        return np.zeros(0, np.bool_)
+    hits = first_hits(boxed, [boxed.middle[[index]] for index in fixture.tolist()], wall)
+    direction = hits.argmin(axis=1)
+    row, axis = np.arange(len(target)), direction // 2
+    outwards = np.where(direction % 2 == 0, 1.0, -1.0)
+    farther = outwards * (boxed.middle[target, axis] - boxed.middle[fixture, axis]) > _ROUNDING
+    is_along = np.arange(3) != axis[:, None]
+    lower, upper = boxed.lower[fixture] - _ROUNDING, boxed.upper[fixture] + _ROUNDING
+    middle = boxed.middle[target]
+    is_before = (((middle >= lower) & (middle <= upper)) | ~is_along).all(axis=1)
+    shared = np.minimum(upper, boxed.upper[target]) - np.maximum(lower, boxed.lower[target])
+    share = np.clip(shared, 0, None) / np.maximum(boxed.size[target], _ROUNDING)
+    is_around = np.where(is_along, share, 1.0).prod(axis=1) >= rule.min_borne
+    is_closer = np.clip(fixture_gap, 0, None) + rule.max_touch <= gap
+    return np.asarray(np.isfinite(hits[row, direction]) & farther & is_before & (is_around | is_closer))
