@@ -1,6 +1,7 @@
 """`attached-to`: what hangs from an object or is fixed to it, with nothing below."""
 
 from collections.abc import Sequence
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -24,7 +25,14 @@ from usd2kg.relations.thresholds import AttachedRule
 from usd2kg.shapes import overlapping_pairs
 from usd2kg.shapes.ragged import ragged_indices
 
-__all__ = ["find_attached", "find_doubtful", "find_held_at_mounts", "find_held_beside_support"]
+__all__ = [
+    "Attached",
+    "find_attached",
+    "find_doubtful",
+    "find_held_at_mounts",
+    "find_held_beside_support",
+    "find_stuck",
+]
 
 Array = NDArray[np.float64]
 Indices = NDArray[np.int64]
@@ -38,6 +46,15 @@ _RESTING = -2.0
 """…but what the target rests on."""
 
 
+class Attached(NamedTuple):
+    """What holds the objects of a scene."""
+
+    links: Links
+    """`attached-to`."""
+    at_fixture: Mask
+    """Whether each link leads to what is between the target and a wall or ceiling."""
+
+
 def find_attached(
     boxed: BoxedObjects,
     classes: ClassMembership,
@@ -47,7 +64,7 @@ def find_attached(
     needs_mount: bool,
     doubtful: Sequence[Links] = (),
     hovering: Links | None = None,
-) -> Links:
+) -> Attached:
     """Return the `attached-to` links of objects that are on, in and part of nothing so far.
 
     Walls and ceilings hold whatever is within a few centimetres, other objects what touches them. What reaches down to
@@ -71,7 +88,8 @@ def find_attached(
     is_doubtful[[index for links in doubtful for index in links.target.tolist()]] = True
     # The box of a mesh of several walls does not locate the walls.
     is_located = boxed.has_surface | (boxed.size.min(axis=1) <= rule.max_wall_thickness) | ~is_mount
-    may_hold = is_located & ~classes.are_in("not_mounts")[boxed.scene_index]
+    is_loose = _are_loose_grounds(boxed, classes, rule)
+    may_hold = is_located & (is_loose | ~classes.are_in("not_mounts")[boxed.scene_index])
     reach = np.where(hangs, rule.max_hanging_gap, rule.max_gap)
     pairs = _near_pairs(boxed, targets, np.flatnonzero(may_hold), is_mount, reach, rule)
     pairs = select_rows(pairs, ~stronger.are_related(pairs.target, pairs.anchor))
@@ -89,7 +107,8 @@ def find_attached(
     is_free &= ~is_mount
     pairs = pairs._replace(locks=touches & ~are_closer_to_mounts(pairs, is_free, is_mount, rule))
     at_mount = pairs.target[is_mount[pairs.anchor]]
-    pairs = _with_fixtures(boxed, pairs, targets[~(hangs | is_mount)[targets]], is_mount, stronger, rule)
+    may_be_fixed = targets[~(hangs | is_mount)[targets]]
+    pairs, fixed = _with_fixtures(boxed, pairs, may_be_fixed, is_mount, stronger, rule)
     pairs = select_rows(pairs, ~_are_backed(boxed, pairs, is_mount, rule))
     pairs = select_rows(pairs, ~are_carried_by_target(pairs, is_free, is_mount, rule))
     pairs = select_rows(pairs, ~are_farther_than_holder(boxed, pairs, is_free, is_mount, hangs, rule))
@@ -108,11 +127,16 @@ def find_attached(
     is_firm = pairs.locks | (is_firm & ~is_doubtful[pairs.anchor])
     is_firm |= pairs.hangs & _are_reversed(pairs, doubtful, len(boxed))
     pairs = select_rows(pairs, is_firm | ~(is_doubtful[pairs.target] | is_doubtful[pairs.anchor]))
-    pairs = concatenate_rows([pairs, *(_resting(links.where(~hangs[links.target])) for links in doubtful)])
+    rests = [links.where(~hangs[links.target]) for links in doubtful]
+    # A screw that only partly rests on what it is in front of is stuck in it.
+    juts = [np.isin(links.target, fixed) & (links.numbers["overlapRatio"] < rule.min_borne) for links in rests]
+    rests = [links.where(~is_jutting) for links, is_jutting in zip(rests, juts, strict=True)]
+    pairs = concatenate_rows([pairs, *map(_resting, rests)])
     best = _nearest_held(boxed, pairs, is_mount, rule)
     best = select_rows(best, ~best.rests & ~_are_beside_unheld(boxed, best, targets, is_mount, rule))
     confidence = margin_score(margin_below(np.clip(best.gap, 0, None), best.limit))
-    return Links("attached-to", rule.rule, best.target, best.anchor, {"gap": best.gap}, confidence)
+    links = Links("attached-to", rule.rule, best.target, best.anchor, {"gap": best.gap}, confidence)
+    return Attached(links, np.isin(best.target, fixed))
 
 
 def find_doubtful(
@@ -135,23 +159,51 @@ def find_doubtful(
     """
     dangles = np.zeros(len(boxed), np.bool_)
     dangles[_hanging(boxed, classes, stronger, rule)] = True
-    dangles &= ~classes.are_in("mounts")[boxed.scene_index]
+    is_mount = classes.are_in("mounts")[boxed.scene_index]
+    dangles &= ~is_mount
     hangs = classes.are_in("hanging")[boxed.scene_index]
     doubtful = np.zeros(len(boxed), np.bool_)
-    for links in support:
-        doubtful[links.target[dangles[links.anchor] | hangs[links.target]]] = True
-    return doubtful
+    while True:
+        count = doubtful.sum()
+        for links in support:
+            is_hooked = are_interlocked(boxed, links.target, links.anchor, rule.min_interlock)
+            is_hooked &= ~is_mount[links.target]
+            leads = dangles[links.anchor] | (is_hooked & doubtful[links.anchor]) | hangs[links.target]
+            doubtful[links.target[leads]] = True
+        if doubtful.sum() == count:
+            return doubtful
+
+
+def find_stuck(boxed: BoxedObjects, classes: ClassMembership, on: Links, rule: AttachedRule) -> Mask:
+    """Return for each object whether it is stuck in the side of what it is on: a screw hook in the edge of a table.
+
+    It sinks in with all of its height and sticks out at a side. The ground has no side.
+
+    Args:
+        boxed: the objects.
+        classes: membership in class lists.
+        on: the `on` links found so far, with one anchor each.
+        rule: the thresholds.
+    """
+    is_sunk = -on.numbers["gap"] >= np.maximum(boxed.size[on.target, 2], rule.max_contact)
+    is_sunk &= ~classes.are_in("grounds")[boxed.scene_index[on.anchor]]
+    is_sunk &= ~classes.are_in("not_attached")[boxed.scene_index[on.target]]
+    lower, upper = boxed.lower[on.anchor, :2], boxed.upper[on.anchor, :2]
+    sticks_out = ((boxed.lower[on.target, :2] < lower) | (boxed.upper[on.target, :2] > upper)).any(axis=1)
+    found = np.zeros(len(boxed), np.bool_)
+    found[on.target[is_sunk & sticks_out]] = True
+    return found
 
 
 def find_held_at_mounts(boxed: BoxedObjects, classes: ClassMembership, targets: Indices, rule: AttachedRule) -> Mask:
-    """Return for each object whether it is one of the targets, not near the ground, and touches a wall or ceiling."""
+    """Return for each object whether it is one of the targets, not near the ground, and at a wall or ceiling."""
     is_mount = classes.are_in("mounts")[boxed.scene_index] & ~classes.are_in("not_mounts")[boxed.scene_index]
     hanging = _high_enough(boxed, classes, targets[~is_mount[targets]], rule)
-    reach = np.where(is_mount, 0.0, rule.max_touch)
+    reach = np.where(is_mount, 0.0, rule.max_contact)
     pairs = _near_pairs(boxed, hanging, np.flatnonzero(is_mount), is_mount, reach, rule)
     gap = surface_distances(boxed, pairs.target, pairs.anchor, pairs.limit)
     found = np.zeros(len(boxed), np.bool_)
-    found[pairs.target[gap <= rule.max_touch]] = True
+    found[pairs.target[gap <= rule.max_contact]] = True
     return found
 
 
@@ -159,8 +211,13 @@ def _hanging(boxed: BoxedObjects, classes: ClassMembership, stronger: StrongerRe
     """Return the objects that are on, in and part of nothing so far, and too high above the ground to stand on it."""
     is_mount = classes.are_in("mounts")[boxed.scene_index]
     is_fixed = classes.are_in("not_attached") & ~classes.are_in("cases")
-    may_hang = stronger.is_free & (is_mount | ~is_fixed[boxed.scene_index])
+    may_hang = stronger.is_free & (is_mount | ~is_fixed[boxed.scene_index] | _are_loose_grounds(boxed, classes, rule))
     return _high_enough(boxed, classes, np.flatnonzero(may_hang), rule)
+
+
+def _are_loose_grounds(boxed: BoxedObjects, classes: ClassMembership, rule: AttachedRule) -> Mask:
+    """Return for each object whether it is a floor by its class, but too small for one: a tile, a board for tiles."""
+    return np.asarray(classes.are_in("grounds")[boxed.scene_index] & (boxed.size < rule.max_loose_floor).all(axis=1))
 
 
 def _high_enough(boxed: BoxedObjects, classes: ClassMembership, targets: Indices, rule: AttachedRule) -> Indices:
@@ -177,8 +234,8 @@ def _with_fixtures(
     is_mount: Mask,
     stronger: StrongerRelations,
     rule: AttachedRule,
-) -> Mounts:
-    """Return the pairs with a fixture in place of the wall or ceiling behind it, which carries the fixture.
+) -> tuple[Mounts, Indices]:
+    """Return the pairs with fixtures in place of the walls and ceilings behind them, and the objects on fixtures.
 
     Args:
         boxed: the objects.
@@ -203,23 +260,24 @@ def _with_fixtures(
     to_wall = np.append(order, -1)[np.searchsorted(keys[order], found.target * count + wall)]
     is_known = np.append(keys, -1)[to_wall] == found.target * count + wall
     gap = np.where(is_known, np.append(pairs.gap, np.inf)[to_wall], np.inf)
-    holds = are_in_front_of_fixtures(boxed, found.target, found.anchor, wall, gap, pairs.gap[place[found.anchor]], rule)
+    gaps = (found.gap, gap, pairs.gap[place[found.anchor]])
+    holds = are_in_front_of_fixtures(boxed, found.target, found.anchor, wall, *gaps, rule)
     found, wall = select_rows(found, holds), wall[holds]
-    replaced = np.concatenate(
-        [found.target * count + wall, found.target * count + found.anchor, found.anchor * count + found.target]
-    )
-    return concatenate_rows([select_rows(pairs, ~np.isin(keys, replaced)), found])
+    replaced = np.concatenate([found.target * count + wall, found.anchor * count + found.target])
+    is_left = pairs.hangs | is_mount[pairs.anchor] | ~np.isin(pairs.target, found.target)
+    is_left &= ~np.isin(keys, np.concatenate([replaced, found.target * count + found.anchor]))
+    return concatenate_rows([select_rows(pairs, is_left), found]), found.target
 
 
 def _touching(boxed: BoxedObjects, targets: Indices, holders: Indices, rule: AttachedRule) -> Mounts:
     """Return the pairs of different objects that touch, measured exactly, as if they interlocked."""
     none, no = np.zeros(0, np.int64), np.zeros(0, np.bool_)
     found = [Mounts(none, none, np.zeros(0), np.zeros(0), no, no, no)]
-    lower, upper = boxed.lower - rule.max_touch, boxed.upper + rule.max_touch
+    lower, upper = boxed.lower - rule.max_contact, boxed.upper + rule.max_contact
     for i, j in overlapping_pairs(lower[targets], upper[targets], (boxed.lower[holders], boxed.upper[holders])):
         target, anchor = targets[i], holders[j]
         no = np.zeros(len(target), np.bool_)
-        limit = np.full(len(target), rule.max_touch)
+        limit = np.full(len(target), rule.max_contact)
         pairs = Mounts(target, anchor, np.zeros(len(target)), limit, no, ~no, no)
         found.append(select_rows(pairs, target != anchor))
     pairs = concatenate_rows(found)
@@ -273,12 +331,13 @@ def find_held_beside_support(
         attached: the `attached-to` links found so far.
         rule: the thresholds.
     """
-    mount = np.full(len(boxed), -1)
+    mount, clearance = np.full(len(boxed), -1), np.zeros(len(boxed))
     is_mount = classes.are_in("mounts")[boxed.scene_index[attached.anchor]]
     mount[attached.target[is_mount]] = attached.anchor[is_mount]
+    clearance[attached.target[is_mount]] = np.clip(attached.numbers["gap"][is_mount], 0, None)
     some = np.flatnonzero((on.numbers["overlapRatio"] < rule.min_borne) & (mount[on.anchor] >= 0))
     target, anchor = on.target[some], mount[on.anchor[some]]
-    limit = np.full(len(some), rule.max_gap)
+    limit = np.minimum(clearance[on.anchor[some]] + rule.max_contact, rule.max_gap)
     gap = surface_distances(boxed, target, anchor, limit)
     confidence = margin_score(margin_below(np.clip(gap, 0, None), limit))
     return Links("attached-to", rule.rule, target, anchor, {"gap": gap}, confidence).where(gap <= limit)

@@ -19,10 +19,12 @@ from usd2kg.relations.adjacency import (
 )
 from usd2kg.relations.array_records import select_rows
 from usd2kg.relations.attachment import (
+    Attached,
     find_attached,
     find_doubtful,
     find_held_at_mounts,
     find_held_beside_support,
+    find_stuck,
 )
 from usd2kg.relations.between import find_between
 from usd2kg.relations.boxed_objects import BoxedObjects, ClassMembership
@@ -105,7 +107,8 @@ class _Finder:
         # What would tip over and touches a wall hangs there.
         tipping = resting[0].target[are_unbalanced(self.boxed, resting[0])]
         is_at_wall = find_held_at_mounts(self.boxed, self.classes, np.unique(tipping), self.rules.attached)
-        resting = stronger.withdraw_support(resting, is_at_wall)
+        is_stuck = find_stuck(self.boxed, self.classes, resting[0], self.rules.attached)
+        resting = stronger.withdraw_support(resting, is_at_wall | is_stuck)
         # What is near a wall hangs there rather than hovering over what is below; the rest may hang from what hovers.
         is_doubtful = find_doubtful(self.boxed, self.classes, stronger, resting, self.rules.attached)
         doubtful = [links.where(is_doubtful[links.target]) for links in resting]
@@ -121,10 +124,10 @@ class _Finder:
             doubtful=doubtful,
             hovering=hovering,
         )
-        stronger.add_attached(attached)
+        stronger.add_attached(attached.links)
         stronger.add_support([links.where(~stronger.is_attached[links.target]) for links in doubtful])
         resting = [links.where(~(is_doubtful & stronger.is_attached)[links.target]) for links in resting]
-        beside = find_held_beside_support(self.boxed, self.classes, resting[0], attached, self.rules.attached)
+        beside = find_held_beside_support(self.boxed, self.classes, resting[0], attached.links, self.rules.attached)
         yield from stronger.replace_support(resting, beside)
         yield beside
         yield from self._propped(attached, support)
@@ -132,7 +135,7 @@ class _Finder:
         over = find_hovering(self.boxed, support.near, may_hover, containment.container, self.rules)
         yield from stronger.add_support([over])
         fixed = find_attached(self.boxed, self.classes, stronger, self.rules.attached, needs_mount=False)
-        stronger.add_attached(fixed)
+        stronger.add_attached(fixed.links)
         yield from self._propped(fixed, support)
         if kinds & ROOM_KINDS:
             yield from self._rooms(wholes)
@@ -144,10 +147,10 @@ class _Finder:
             yield reverse_links("below", above)
         yield from self._adjacent(kinds, takes_part, stronger)
 
-    def _propped(self, attached: Links, support: Support) -> Iterator[Links]:
+    def _propped(self, attached: Attached, support: Support) -> Iterator[Links]:
         """Yield `attached-to` links, but `on` links where the anchor is below the feet of the target as well."""
-        propped = find_propped(self.boxed, support.near, attached, self.rules)
-        yield attached.where(~np.isin(attached.target, propped.target))
+        propped = find_propped(self.boxed, support.near, attached.links.where(~attached.at_fixture), self.rules)
+        yield attached.links.where(~np.isin(attached.links.target, propped.target))
         yield propped
 
     def _rooms(self, wholes: Indices) -> Iterator[Links]:

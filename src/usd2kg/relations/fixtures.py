@@ -22,6 +22,7 @@ def are_in_front_of_fixtures(
     target: Indices,
     fixture: Indices,
     wall: Indices,
+    contact: Array,
     gap: Array,
     fixture_gap: Array,
     rule: AttachedRule,
@@ -30,13 +31,14 @@ def are_in_front_of_fixtures(
 
     As seen from the wall, the middle of the target is farther away than that of the fixture and in front of it. If the
     target touches the wall as well or passes into it, as a plug does, the fixture is around nearly all of it there;
-    else it is closer to the wall than the target.
+    else it is closer to the wall than the target. What is within reach of the wall must touch the fixture.
 
     Args:
         boxed: the objects.
         target: indices of objects that touch the fixtures.
         fixture: indices of objects at the walls.
         wall: indices of the walls or ceilings.
+        contact: metres from the target to the fixture.
         gap: metres from the target to the wall; inf if it is out of reach.
         fixture_gap: metres from the fixture to the wall.
         rule: the thresholds.
@@ -56,4 +58,5 @@ def are_in_front_of_fixtures(
     share = np.clip(shared, 0, None) / np.maximum(boxed.size[target], _ROUNDING)
     is_around = np.where(is_along, share, 1.0).prod(axis=1) >= rule.min_borne
     is_closer = np.clip(fixture_gap, 0, None) + rule.max_touch <= gap
-    return np.asarray(np.isfinite(hits[row, direction]) & farther & is_before & (is_around | is_closer))
+    touches = (contact <= rule.max_touch) | np.isinf(gap)
+    return np.asarray(np.isfinite(hits[row, direction]) & touches & farther & is_before & (is_around | is_closer))

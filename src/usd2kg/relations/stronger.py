@@ -32,6 +32,7 @@ class StrongerRelations:
         self.is_attached = np.zeros(len(boxed), np.bool_)
         """Whether each object is attached to another."""
         self._whole = np.full(len(boxed), -1)
+        self._attached_to = np.full(len(boxed), -1)
         self._part_keys = np.concatenate([self._keep_parts(*boxed_ends(boxed, links)) for links in parts])
         self._keys = [self._part_keys, *(self._key(links.target, links.anchor) for links in containment.links)]
         moved, _ = boxed_ends(boxed, parts.stated)
@@ -91,6 +92,7 @@ class StrongerRelations:
     def add_attached(self, links: Links) -> Links:
         """Record `attached-to` links and return them."""
         self.is_attached[links.target] = True
+        self._attached_to[links.target] = links.anchor
         self._keys.append(self._key(links.target, links.anchor))
         return links
 
@@ -106,8 +108,9 @@ class StrongerRelations:
 
     @property
     def holder(self) -> Indices:
-        """The supporter of each object, else its whole or container; -1 for none."""
-        return np.where(self.supporter >= 0, self.supporter, self.frame)
+        """The supporter of each object, else its whole or container, else what it is attached to; -1 for none."""
+        holder = np.where(self.supporter >= 0, self.supporter, self.frame)
+        return np.where(holder >= 0, holder, self._attached_to)
 
     def _key(self, one: Indices, other: Indices) -> Indices:
         return np.asarray(np.minimum(one, other) * self._count + np.maximum(one, other))

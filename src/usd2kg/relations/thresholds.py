@@ -124,7 +124,9 @@ class AttachedRule(NamedTuple):
     min_clearance: float
     max_plinth: float
     ground_reach: float
+    max_loose_floor: float
     max_wall_thickness: float
+    min_lead_slenderness: float
 
 
 class AboveRule(NamedTuple):
