@@ -37,6 +37,8 @@ from usd2kg.relations.connections import (
 from usd2kg.relations.containment import find_inside
 from usd2kg.relations.derived_room import DerivedRoom
 from usd2kg.relations.floor_plan import draw_floor_plans
+from usd2kg.relations.hung_inside import find_hung_inside
+from usd2kg.relations.leads import find_leads
 from usd2kg.relations.model import ALL_KINDS, ROOM_KINDS, SYMMETRIC_KINDS, VIEWPOINT_KINDS, Links, Relation
 from usd2kg.relations.object_kinds import find_kinds
 from usd2kg.relations.openings import find_openings
@@ -104,11 +106,18 @@ class _Finder:
         loose, container = stronger.is_loose, containment.container
         support = find_support(self.boxed, self.classes, loose, container, wholes, self.rules)
         resting = stronger.add_support(support.links)
+        # What is at the end of a cable does not rest on it.
+        leads = find_leads(self.boxed, self.classes, stronger.frame == stronger.container, self.rules.attached)
+        at_end = np.zeros(len(self.boxed), np.bool_)
+        for links in resting:
+            at_end[links.target[leads.tie(links, len(self.boxed))]] = True
         # What would tip over and touches a wall hangs there.
         tipping = resting[0].target[are_unbalanced(self.boxed, resting[0])]
         is_at_wall = find_held_at_mounts(self.boxed, self.classes, np.unique(tipping), self.rules.attached)
         is_stuck = find_stuck(self.boxed, self.classes, resting[0], self.rules.attached)
-        resting = stronger.withdraw_support(resting, is_at_wall | is_stuck)
+        resting = stronger.withdraw_support(resting, is_at_wall | is_stuck | at_end)
+        yield stronger.add_attached(leads.links)
+        stronger.add_ties(leads.lead, leads.thing)
         # What is near a wall hangs there rather than hovering over what is below; the rest may hang from what hovers.
         is_doubtful = find_doubtful(self.boxed, self.classes, stronger, resting, self.rules.attached)
         doubtful = [links.where(is_doubtful[links.target]) for links in resting]
@@ -131,6 +140,10 @@ class _Finder:
         yield from stronger.replace_support(resting, beside)
         yield beside
         yield from self._propped(attached, support)
+        surfaces = self.classes.are_in("not_contained") | self.classes.are_in("mounts")
+        is_fitted = surfaces[self.boxed.scene_index]
+        inside = find_hung_inside(self.boxed, stronger, support.at_floor, is_fitted, self.rules.attached)
+        yield stronger.add_attached(inside)
         may_hover = stronger.may_hover & ~support.at_floor
         over = find_hovering(self.boxed, support.near, may_hover, containment.container, self.rules)
         yield from stronger.add_support([over])

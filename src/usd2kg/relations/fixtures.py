@@ -49,6 +49,8 @@ def are_in_front_of_fixtures(
     direction = hits.argmin(axis=1)
     row, axis = np.arange(len(target)), direction // 2
     outwards = np.where(direction % 2 == 0, 1.0, -1.0)
+    # What lies on a wall is no fixture.
+    is_on_wall = (axis == 2) & (outwards > 0)
     farther = outwards * (boxed.middle[target, axis] - boxed.middle[fixture, axis]) > _ROUNDING
     is_along = np.arange(3) != axis[:, None]
     lower, upper = boxed.lower[fixture] - _ROUNDING, boxed.upper[fixture] + _ROUNDING
@@ -59,4 +61,4 @@ def are_in_front_of_fixtures(
     is_around = np.where(is_along, share, 1.0).prod(axis=1) >= rule.min_borne
     is_closer = np.clip(fixture_gap, 0, None) + rule.max_touch <= gap
     touches = (contact <= rule.max_touch) | np.isinf(gap)
-    return np.asarray(np.isfinite(hits[row, direction]) & touches & farther & is_before & (is_around | is_closer))
+    return np.asarray(np.isfinite(hits[row, direction]) & ~is_on_wall & touches & farther & is_before & (is_around | is_closer))

@@ -89,6 +89,10 @@ class StrongerRelations:
         self.supporter[is_moved] = -1
         return [found.where(~is_moved[found.target]) for found in support]
 
+    def add_ties(self, one: Indices, other: Indices) -> None:
+        """Record pairs of objects, neither of which is on or attached to the other by another rule."""
+        self._keys.append(self._key(one, other))
+
     def add_attached(self, links: Links) -> Links:
         """Record `attached-to` links and return them."""
         self.is_attached[links.target] = True

@@ -1,0 +1,193 @@
+"""Leads: cables and hoses between two things, known by their form alone."""
+
+import heapq
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from usd2kg.relations.array_records import first_of_each_group, rounded
+from usd2kg.relations.boxed_objects import BoxedObjects, ClassMembership
+from usd2kg.relations.model import Links, margin_below, margin_score
+from usd2kg.relations.thresholds import AttachedRule
+from usd2kg.shapes import overlapping_pairs
+from usd2kg.shapes.mesh_distance import Solid, exact_distance
+from usd2kg.shapes.surface import Surface, SurfacePiece
+from usd2kg.shapes.welding import weld_points
+
+__all__ = ["Leads", "find_leads"]
+
+Array = NDArray[np.float64]
+Indices = NDArray[np.int64]
+Mask = NDArray[np.bool_]
+
+_MIN_TRIANGLES = 16
+"""A bent tube has at least two pieces with four sides each."""
+_MAX_TRIANGLES = 5000
+"""Triangles beyond which the ends of a tube are not looked for; bounds the running time."""
+_MAX_COILS = 4.0
+"""Length of a tube over the diagonal of its box; sheets seem to be much longer tubes."""
+_MISFIT = 0.25
+"""Share by which the way along a tube may differ from the length that follows from its area and its volume."""
+_END = 2.0
+"""Length of an end in thicknesses of the tube."""
+_WELD_SHARE = 2.0**-20
+"""Share of the extent of an object within which points coincide."""
+_SUNK = 5e-4
+"""Metres by which an end reaches into the box of what it is plugged into; it does not into what it lies on."""
+
+
+class Leads(NamedTuple):
+    """Cables and hoses, and what their ends are in."""
+
+    links: Links
+    """`attached-to`, from each lead to the larger of the two things at its ends."""
+    lead: Indices
+    """One row for each end."""
+    thing: Indices
+    """What the end is in."""
+
+    def tie(self, links: Links, count: int) -> Mask:
+        """Return for each link whether it is from a thing to the lead that ends in it."""
+        keys = self.thing * count + self.lead
+        return np.isin(links.target * count + links.anchor, keys)
+
+
+class _Tube(NamedTuple):
+    length: float
+    """Along its bends, metres."""
+    thickness: float
+
+
+def find_leads(boxed: BoxedObjects, classes: ClassMembership, may_lead: Mask, rule: AttachedRule) -> Leads:
+    """Return the thin tubes of one piece whose two ends are in two different things.
+
+    A tube that ends at a wall, a ceiling or a floor is fixed there.
+
+    Args:
+        boxed: the objects.
+        classes: membership in class lists.
+        may_lead: whether each object may be a lead.
+        rule: the thresholds.
+    """
+    is_ground = (classes.are_in("mounts") | classes.are_in("not_mounts"))[boxed.scene_index]
+    leads: list[int] = []
+    ends: list[Solid] = []
+    for index in np.flatnonzero(may_lead & boxed.has_surface & ~is_ground).tolist():
+        surface = boxed.surfaces[index]
+        if surface is None or not _MIN_TRIANGLES <= surface.triangle_count <= _MAX_TRIANGLES:
+            continue
+        corners = surface.corners
+        tube = _measure_tube(corners, float(np.linalg.norm(boxed.size[index])), rule)
+        if tube is not None and (found := _find_ends(corners, tube)) is not None:
+            leads.append(index)
+            ends.extend(map(_as_solid, found))
+    owner = np.repeat(np.array(leads, np.int64), 2)
+    number, thing, gap = _plugged(boxed, owner, ends, rule)
+    # Of several things around an end, the smallest is what it is plugged into.
+    first = first_of_each_group(number, (boxed.rank[thing], rounded(boxed.volume[thing])))
+    number, thing, gap = number[first], thing[first], gap[first]
+    count = np.bincount(number // 2, minlength=len(leads))
+    is_fixed = np.bincount(number[is_ground[thing]] // 2, minlength=len(leads)) > 0
+    is_lead = (count == 2) & ~is_fixed
+    some = np.flatnonzero(is_lead[number // 2])
+    one, other = thing[some[::2]], thing[some[1::2]]
+    some = some[np.repeat(one != other, 2)]
+    lead, thing, gap = owner[number[some]], thing[some], gap[some]
+    best = first_of_each_group(lead, (boxed.rank[thing], -rounded(boxed.volume[thing])))
+    confidence = margin_score(margin_below(gap[best], np.full(len(best), rule.max_touch)))
+    links = Links("attached-to", rule.rule, lead[best], thing[best], {"gap": gap[best]}, confidence)
+    return Leads(links, lead, thing)
+
+
+def _measure_tube(corners: Array, diagonal: float, rule: AttachedRule) -> _Tube | None:
+    """Return the tube of the same area πdl and volume πd²l/4; None if it is too thick, or coiled up like a sheet."""
+    one, other, third = corners[:, 0], corners[:, 1], corners[:, 2]
+    area = float(np.linalg.norm(np.cross(other - one, third - one), axis=1).sum()) / 2
+    if area <= 0 or np.pi * (_MAX_COILS * diagonal) ** 2 < rule.min_lead_slenderness * area:
+        return None
+    centre = corners.mean(axis=(0, 1))
+    volume = abs(float(np.einsum("ij,ij->", one - centre, np.cross(other - centre, third - centre)))) / 6
+    thickness = 4 * volume / area
+    if thickness <= 0:
+        return None
+    length = area / (np.pi * thickness)
+    is_slender = length >= rule.min_lead_slenderness * thickness
+    return _Tube(length, thickness) if is_slender and length <= _MAX_COILS * diagonal else None
+
+
+def _find_ends(corners: Array, tube: _Tube) -> tuple[Array, Array] | None:
+    """Return the triangles (n, 3, 3) at both ends: the points that are farthest from each other along the surface.
+
+    None if the surface is not in one piece, or the way along it is not as long as the tube.
+    """
+    points = corners.reshape(-1, 3)
+    extent = float((points.max(axis=0) - points.min(axis=0)).max())
+    welded = weld_points(points - points.min(axis=0), extent * _WELD_SHARE)
+    triangles = welded.group.reshape(-1, 3)
+    edges = np.unique(np.sort(np.concatenate([triangles[:, [0, 1]], triangles[:, [1, 2]], triangles[:, [2, 0]]])), axis=0)
+    places = points[welded.first]
+    lengths = np.linalg.norm(places[edges[:, 0]] - places[edges[:, 1]], axis=1)
+    around: list[list[tuple[int, float]]] = [[] for _ in places]
+    for (i, j), length in zip(edges.tolist(), lengths.tolist(), strict=True):
+        around[i].append((j, length))
+        around[j].append((i, length))
+    start = _distances_from(0, around)
+    if not np.isfinite(start).all():
+        return None
+    away = _distances_from(int(start.argmax()), around)
+    farthest = float(away.max())
+    if abs(farthest - tube.length) > _MISFIT * tube.length:
+        return None
+    reach = _END * tube.thickness
+    return (
+        corners[(away[triangles] <= reach).all(axis=1)],
+        corners[(away[triangles] >= farthest - reach).all(axis=1)],
+    )
+
+
+def _distances_from(start: int, around: list[list[tuple[int, float]]]) -> Array:
+    """Return the length of the shortest way to each point along the edges (Dijkstra 1959); inf if there is none."""
+    found = [np.inf] * len(around)
+    found[start] = 0.0
+    queue = [(0.0, start)]
+    while queue:
+        length, here = heapq.heappop(queue)
+        if length > found[here]:
+            continue
+        for there, step in around[here]:
+            if length + step < found[there]:
+                found[there] = length + step
+                heapq.heappush(queue, (length + step, there))
+    return np.array(found)
+
+
+def _as_solid(corners: Array) -> Solid:
+    points = corners.reshape(-1, 3)
+    if not len(points):
+        return Solid(np.full(3, np.inf), np.full(3, -np.inf), None)
+    triangles = np.arange(len(points), dtype=np.int32).reshape(-1, 3)
+    surface = Surface((SurfacePiece(points.astype(np.float32), triangles, np.eye(4)),))
+    return Solid(points.min(axis=0), points.max(axis=0), surface)
+
+
+def _plugged(
+    boxed: BoxedObjects, owner: Indices, ends: list[Solid], rule: AttachedRule
+) -> tuple[Indices, Indices, Array]:
+    """Return the numbers of ends, the objects that each of them reaches into, and the distances of the surfaces."""
+    if not ends:
+        none = np.zeros(0, np.int64)
+        return none, none, np.zeros(0)
+    lower, upper = np.array([end.lower for end in ends]), np.array([end.upper for end in ends])
+    rows: list[tuple[int, int, float]] = []
+    for i, j in overlapping_pairs(lower, upper, (boxed.lower, boxed.upper)):
+        shared = np.minimum(upper[i], boxed.upper[j]) - np.maximum(lower[i], boxed.lower[j])
+        is_sunk = (shared >= np.minimum(_SUNK, boxed.size[j])).all(axis=1) & (owner[i] != j)
+        for number, thing in zip(i[is_sunk].tolist(), j[is_sunk].tolist(), strict=True):
+            other = Solid(boxed.lower[thing], boxed.upper[thing], boxed.surfaces[thing])
+            gap = exact_distance(ends[number], other, rule.max_touch)
+            if gap <= rule.max_touch:
+                rows.append((number, thing, gap))
+    rows.sort()
+    number, thing, gap = zip(*rows, strict=True) if rows else ((), (), ())
+    return np.array(number, np.int64), np.array(thing, np.int64), np.array(gap, np.float64)
