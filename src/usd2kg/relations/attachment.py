@@ -331,13 +331,12 @@ def find_held_beside_support(
         attached: the `attached-to` links found so far.
         rule: the thresholds.
     """
-    mount, clearance = np.full(len(boxed), -1), np.zeros(len(boxed))
+    mount = np.full(len(boxed), -1)
     is_mount = classes.are_in("mounts")[boxed.scene_index[attached.anchor]]
     mount[attached.target[is_mount]] = attached.anchor[is_mount]
-    clearance[attached.target[is_mount]] = np.clip(attached.numbers["gap"][is_mount], 0, None)
     some = np.flatnonzero((on.numbers["overlapRatio"] < rule.min_borne) & (mount[on.anchor] >= 0))
     target, anchor = on.target[some], mount[on.anchor[some]]
-    limit = np.minimum(clearance[on.anchor[some]] + rule.max_contact, rule.max_gap)
+    limit = np.full(len(some), rule.max_gap)
     gap = surface_distances(boxed, target, anchor, limit)
     confidence = margin_score(margin_below(np.clip(gap, 0, None), limit))
     return Links("attached-to", rule.rule, target, anchor, {"gap": gap}, confidence).where(gap <= limit)

@@ -107,7 +107,8 @@ class _Finder:
         support = find_support(self.boxed, self.classes, loose, container, wholes, self.rules)
         resting = stronger.add_support(support.links)
         # What is at the end of a cable does not rest on it.
-        leads = find_leads(self.boxed, self.classes, stronger.frame == stronger.container, self.rules.attached)
+        is_whole = stronger.frame == stronger.container
+        leads = find_leads(self.boxed, self.classes, is_whole, stronger.holder, self.rules.attached)
         at_end = np.zeros(len(self.boxed), np.bool_)
         for links in resting:
             at_end[links.target[leads.tie(links, len(self.boxed))]] = True

@@ -33,8 +33,12 @@ _END = 2.0
 """Length of an end in thicknesses of the tube."""
 _WELD_SHARE = 2.0**-20
 """Share of the extent of an object within which points coincide."""
-_SUNK = 5e-4
+_SUNK = 1e-4
 """Metres by which an end reaches into the box of what it is plugged into; it does not into what it lies on."""
+
+
+_SMALLEST = 1e-12
+"""Smallest divisor."""
 
 
 class Leads(NamedTuple):
@@ -59,8 +63,10 @@ class _Tube(NamedTuple):
     thickness: float
 
 
-def find_leads(boxed: BoxedObjects, classes: ClassMembership, may_lead: Mask, rule: AttachedRule) -> Leads:
-    """Return the thin tubes of one piece whose two ends are in two different things.
+def find_leads(
+    boxed: BoxedObjects, classes: ClassMembership, may_lead: Mask, holder: Indices, rule: AttachedRule
+) -> Leads:
+    """Return the thin tubes of one piece whose two ends are in two different things, but not in what they lie on or in.
 
     A tube that ends at a wall, a ceiling or a floor is fixed there.
 
@@ -68,6 +74,7 @@ def find_leads(boxed: BoxedObjects, classes: ClassMembership, may_lead: Mask, ru
         boxed: the objects.
         classes: membership in class lists.
         may_lead: whether each object may be a lead.
+        holder: the supporter or the container of each object, -1 for none.
         rule: the thresholds.
     """
     is_ground = (classes.are_in("mounts") | classes.are_in("not_mounts"))[boxed.scene_index]
@@ -84,6 +91,8 @@ def find_leads(boxed: BoxedObjects, classes: ClassMembership, may_lead: Mask, ru
             ends.extend(map(_as_solid, found))
     owner = np.repeat(np.array(leads, np.int64), 2)
     number, thing, gap = _plugged(boxed, owner, ends, rule)
+    is_around = thing == holder[owner[number]]
+    number, thing, gap = number[~is_around], thing[~is_around], gap[~is_around]
     # Of several things around an end, the smallest is what it is plugged into.
     first = first_of_each_group(number, (boxed.rank[thing], rounded(boxed.volume[thing])))
     number, thing, gap = number[first], thing[first], gap[first]
@@ -139,11 +148,25 @@ def _find_ends(corners: Array, tube: _Tube) -> tuple[Array, Array] | None:
     farthest = float(away.max())
     if abs(farthest - tube.length) > _MISFIT * tube.length:
         return None
+    back = _distances_from(int(away.argmax()), around)
     reach = _END * tube.thickness
-    return (
-        corners[(away[triangles] <= reach).all(axis=1)],
-        corners[(away[triangles] >= farthest - reach).all(axis=1)],
-    )
+    return _cut(corners, away[triangles], reach), _cut(corners, back[triangles], reach)
+
+
+def _cut(corners: Array, away: Array, reach: float) -> Array:
+    """Return the triangles (n, 3, 3) with a corner within reach, cut off there: a straight piece may be long.
+
+    Args:
+        corners: all triangles (m, 3, 3).
+        away: how far each corner (m, 3) is from the end, along the surface.
+        reach: metres.
+    """
+    some = (away <= reach).any(axis=1)
+    corners, away = corners[some], away[some]
+    first = corners[np.arange(len(corners)), away.argmin(axis=1)][:, None]
+    steps = corners - first
+    lengths = np.maximum(np.linalg.norm(steps, axis=2, keepdims=True), _SMALLEST)
+    return np.asarray(first + steps * np.minimum(1.0, reach / lengths))
 
 
 def _distances_from(start: int, around: list[list[tuple[int, float]]]) -> Array:
