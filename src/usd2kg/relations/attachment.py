@@ -112,6 +112,7 @@ def find_attached(
     pairs = select_rows(pairs, ~_are_backed(boxed, pairs, is_mount, rule))
     pairs = select_rows(pairs, ~are_carried_by_target(pairs, is_free, is_mount, rule))
     pairs = select_rows(pairs, ~are_farther_than_holder(boxed, pairs, is_free, is_mount, hangs, rule))
+    pairs = select_rows(pairs, ~_hover_below(boxed, pairs, is_mount, hangs, rule))
     if needs_mount:
         hovers = np.zeros(0, np.int64) if hovering is None else _target_of_unhooked(hovering, pairs, len(boxed))
         is_hooked = pairs.locks & ~np.isin(pairs.target, hovers)
@@ -444,6 +445,18 @@ def _are_backed(boxed: BoxedObjects, pairs: Mounts, is_mount: Mask, rule: Attach
     backed = np.zeros(len(pairs.target), np.bool_)
     backed[wall[is_behind]] = True
     return backed
+
+
+def _hover_below(boxed: BoxedObjects, pairs: Mounts, is_mount: Mask, hangs: Mask, rule: AttachedRule) -> Mask:
+    """Return for each pair whether the anchor is above the target without touching it, and another one is nearer.
+
+    The door of a base cabinet is not hung from the worktop.
+    """
+    is_beside = ~pairs.hangs & ~is_mount[pairs.anchor]
+    nearest = np.full(len(boxed), np.inf)
+    np.minimum.at(nearest, pairs.target[is_beside], pairs.gap[is_beside])
+    hovers = pairs.hangs & ~is_mount[pairs.anchor] & ~hangs[pairs.target] & (pairs.gap > rule.max_touch)
+    return np.asarray(hovers & (nearest[pairs.target] < pairs.gap))
 
 
 def _are_beside_unheld(

@@ -163,8 +163,12 @@ class _Finder:
 
     def _propped(self, attached: Attached, support: Support) -> Iterator[Links]:
         """Yield `attached-to` links, but `on` links where the anchor is below the feet of the target as well."""
+        mount = self.classes.are_in("mounts")[self.boxed.scene_index]
         propped = find_propped(self.boxed, support.near, attached.links.where(~attached.at_fixture), self.rules)
-        yield attached.links.where(~np.isin(attached.links.target, propped.target))
+        # Nothing hangs from what is below it.
+        lowest = self.boxed.lower[attached.links.target, 2] + self.rules.attached.max_touch
+        is_below = (self.boxed.upper[attached.links.anchor, 2] <= lowest) & ~mount[attached.links.anchor]
+        yield attached.links.where(~np.isin(attached.links.target, propped.target) & ~is_below)
         yield propped
 
     def _rooms(self, wholes: Indices) -> Iterator[Links]:

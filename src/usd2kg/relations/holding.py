@@ -95,7 +95,8 @@ def are_farther_than_holder(
     """Return for each pair whether the anchor is a wall or ceiling to which another anchor of the target is closer.
 
     The other one touches the target: a board its hook. One that rests only counts if the two interlock, or if the wall
-    is hardly within reach: a wall cupboard beside a fridge hangs at the wall.
+    is hardly within reach: a wall cupboard beside a fridge hangs at the wall. One that is much larger need not be closer
+    than the target: a valve is a fitting of its radiator.
     """
     locks = are_interlocked(boxed, pairs.target, pairs.anchor, rule.min_interlock) & (pairs.gap <= rule.max_touch)
     is_close = is_mount[pairs.anchor] | is_free[pairs.anchor] | locks
@@ -107,7 +108,12 @@ def are_farther_than_holder(
     counts = touches & (is_free[pairs.anchor] | locks)
     np.minimum.at(near, pairs.target[counts], length[counts])
     np.minimum.at(far, pairs.target[touches], length[touches])
+    is_fitting = touches & is_free[pairs.anchor] & (pairs.gap <= rule.max_touch)
+    is_fitting &= boxed.volume[pairs.anchor] >= rule.min_bearing_ratio * boxed.volume[pairs.target]
+    carrier = np.full(len(boxed), np.inf)
+    np.minimum.at(carrier, pairs.target[is_fitting], paths.length[pairs.anchor[is_fitting]])
     is_weak = pairs.gap >= rule.min_weak_share * pairs.limit
     nearest = np.where(is_weak, far[pairs.target], near[pairs.target])
     is_apart = is_mount[pairs.anchor] & (pairs.gap > rule.max_contact)
-    return np.asarray(is_apart & (nearest + rule.max_contact <= pairs.gap))
+    is_farther = (nearest + rule.max_contact <= pairs.gap) | (carrier[pairs.target] <= pairs.gap)
+    return np.asarray(is_apart & is_farther)

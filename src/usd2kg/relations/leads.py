@@ -11,6 +11,7 @@ from usd2kg.relations.boxed_objects import BoxedObjects, ClassMembership
 from usd2kg.relations.model import Links, margin_below, margin_score
 from usd2kg.relations.thresholds import AttachedRule
 from usd2kg.shapes import overlapping_pairs
+from usd2kg.shapes.axis_rays import find_crossings
 from usd2kg.shapes.mesh_distance import Solid, exact_distance
 from usd2kg.shapes.surface import Surface, SurfacePiece
 from usd2kg.shapes.welding import weld_points
@@ -197,7 +198,10 @@ def _as_solid(corners: Array) -> Solid:
 def _plugged(
     boxed: BoxedObjects, owner: Indices, ends: list[Solid], rule: AttachedRule
 ) -> tuple[Indices, Indices, Array]:
-    """Return the numbers of ends, the objects that each of them reaches into, and the distances of the surfaces."""
+    """Return the numbers of ends, the objects that each of them reaches into, and the distances of the surfaces.
+
+    That is 0 for an end within an object, however deep.
+    """
     if not ends:
         none = np.zeros(0, np.int64)
         return none, none, np.zeros(0)
@@ -209,8 +213,18 @@ def _plugged(
         for number, thing in zip(i[is_sunk].tolist(), j[is_sunk].tolist(), strict=True):
             other = Solid(boxed.lower[thing], boxed.upper[thing], boxed.surfaces[thing])
             gap = exact_distance(ends[number], other, rule.max_touch)
+            gap = 0.0 if gap > rule.max_touch and _is_within(ends[number], other) else gap
             if gap <= rule.max_touch:
                 rows.append((number, thing, gap))
     rows.sort()
     number, thing, gap = zip(*rows, strict=True) if rows else ((), (), ())
     return np.array(number, np.int64), np.array(thing, np.int64), np.array(gap, np.float64)
+
+
+def _is_within(end: Solid, other: Solid) -> bool:
+    """Return whether the middle of an end is within an object: a line upwards leaves it once more than it enters it."""
+    if other.surface is None:
+        return True
+    middle = (end.lower + end.upper) / 2
+    crossings = find_crossings([middle[None]], [other.surface], 2)
+    return int((crossings.at > middle[2]).sum()) % 2 == 1
