@@ -18,7 +18,7 @@ from usd2kg.relations.holding import (
     are_farther_than_holder,
     lead_to_mounts,
 )
-from usd2kg.relations.interlock import are_interlocked, held_at
+from usd2kg.relations.interlock import are_interlocked, are_over, held_at
 from usd2kg.relations.model import Links, margin_below, margin_score
 from usd2kg.relations.stronger import StrongerRelations
 from usd2kg.relations.thresholds import AttachedRule
@@ -112,6 +112,7 @@ def find_attached(
     pairs = select_rows(pairs, ~_are_backed(boxed, pairs, is_mount, rule))
     pairs = select_rows(pairs, ~are_carried_by_target(pairs, is_free, is_mount, rule))
     pairs = select_rows(pairs, ~are_farther_than_holder(boxed, pairs, is_free, is_mount, hangs, rule))
+    pairs = select_rows(pairs, ~_are_rooted_elsewhere(boxed, pairs, np.flatnonzero(may_hold), is_mount, hangs, rule))
     pairs = select_rows(pairs, ~_hover_below(boxed, pairs, is_mount, hangs, rule))
     if needs_mount:
         hovers = np.zeros(0, np.int64) if hovering is None else _target_of_unhooked(hovering, pairs, len(boxed))
@@ -445,6 +446,26 @@ def _are_backed(boxed: BoxedObjects, pairs: Mounts, is_mount: Mask, rule: Attach
     backed = np.zeros(len(pairs.target), np.bool_)
     backed[wall[is_behind]] = True
     return backed
+
+
+def _are_rooted_elsewhere(
+    boxed: BoxedObjects, pairs: Mounts, holders: Indices, is_mount: Mask, hangs: Mask, rule: AttachedRule
+) -> Mask:
+    """Return for each pair whether the anchor is a wall apart from the target, which something else holds below.
+
+    The target goes into something that is smaller, or the wall is hardly within reach and it only touches it: a plant
+    in its soil, a lamp shade on its foot.
+    """
+    is_apart = is_mount[pairs.anchor] & (pairs.gap > rule.max_contact) & ~hangs[pairs.target]
+    below = _touching(boxed, np.unique(pairs.target[is_apart]), holders[~is_mount[holders]], rule)
+    below = select_rows(below, boxed.upper[below.anchor, 2] <= boxed.middle[below.target, 2])
+    below = select_rows(below, are_over(boxed, below.target, below.anchor))
+    is_rooted, is_touched = np.zeros(len(boxed), np.bool_), np.zeros(len(boxed), np.bool_)
+    enters = are_interlocked(boxed, below.target, below.anchor, rule.min_interlock) & (below.gap <= rule.max_touch)
+    is_rooted[below.target[enters]] = True
+    is_touched[below.target] = True
+    is_weak = pairs.gap >= rule.min_weak_share * pairs.limit
+    return np.asarray(is_apart & (is_rooted[pairs.target] | (is_weak & is_touched[pairs.target])))
 
 
 def _hover_below(boxed: BoxedObjects, pairs: Mounts, is_mount: Mask, hangs: Mask, rule: AttachedRule) -> Mask:

@@ -6,7 +6,7 @@ from numpy.typing import NDArray
 from usd2kg.relations.boxed_objects import BoxedObjects
 from usd2kg.relations.distances import box_gaps
 
-__all__ = ["are_interlocked", "held_at"]
+__all__ = ["are_interlocked", "are_over", "held_at"]
 
 Array = NDArray[np.float64]
 Indices = NDArray[np.int64]
@@ -23,6 +23,12 @@ def are_interlocked(boxed: BoxedObjects, one: Indices, other: Indices, least: fl
     """
     needed = np.minimum(least, np.minimum(boxed.size[one], boxed.size[other]))
     return np.asarray((box_gaps(boxed, one, other) <= _ROUNDING - needed).all(axis=1))
+
+
+def are_over(boxed: BoxedObjects, one: Indices, other: Indices) -> Mask:
+    """Return for each pair whether the middle of `one` is over the box of `other`."""
+    middle = boxed.middle[one, :2]
+    return np.asarray(((middle >= boxed.lower[other, :2]) & (middle <= boxed.upper[other, :2])).all(axis=1))
 
 
 def held_at(boxed: BoxedObjects, one: Indices, other: Indices) -> Array:
