@@ -18,14 +18,7 @@ from usd2kg.relations.adjacency import (
     measure_surface_distances,
 )
 from usd2kg.relations.array_records import select_rows
-from usd2kg.relations.attachment import (
-    Attached,
-    find_attached,
-    find_doubtful,
-    find_held_at_mounts,
-    find_held_beside_support,
-    find_stuck,
-)
+from usd2kg.relations.attachment import Attached, find_attached
 from usd2kg.relations.between import find_between
 from usd2kg.relations.boxed_objects import BoxedObjects, ClassMembership
 from usd2kg.relations.connections import (
@@ -36,6 +29,12 @@ from usd2kg.relations.connections import (
 )
 from usd2kg.relations.containment import find_inside
 from usd2kg.relations.derived_room import DerivedRoom
+from usd2kg.relations.doubtful_support import (
+    find_doubtful,
+    find_held_at_mounts,
+    find_held_beside_support,
+    find_stuck,
+)
 from usd2kg.relations.floor_plan import draw_floor_plans
 from usd2kg.relations.hung_inside import find_hung_inside
 from usd2kg.relations.leads import find_leads

@@ -95,8 +95,8 @@ def are_farther_than_holder(
     """Return for each pair whether the anchor is a wall or ceiling to which another anchor of the target is closer.
 
     The other one touches the target: a board its hook. One that rests only counts if the two interlock, or if the wall
-    is hardly within reach: a wall cupboard beside a fridge hangs at the wall. One that is much larger need not be closer
-    than the target: a valve is a fitting of its radiator.
+    is hardly within reach: a wall cupboard beside a fridge hangs at the wall. One that is much larger need not be that
+    close: a valve is a fitting of its radiator.
     """
     locks = are_interlocked(boxed, pairs.target, pairs.anchor, rule.min_interlock) & (pairs.gap <= rule.max_touch)
     is_close = is_mount[pairs.anchor] | is_free[pairs.anchor] | locks

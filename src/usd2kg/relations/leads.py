@@ -135,7 +135,9 @@ def _find_ends(corners: Array, tube: _Tube) -> tuple[Array, Array] | None:
     extent = float((points.max(axis=0) - points.min(axis=0)).max())
     welded = weld_points(points - points.min(axis=0), extent * _WELD_SHARE)
     triangles = welded.group.reshape(-1, 3)
-    edges = np.unique(np.sort(np.concatenate([triangles[:, [0, 1]], triangles[:, [1, 2]], triangles[:, [2, 0]]])), axis=0)
+    edges = np.unique(
+        np.sort(np.concatenate([triangles[:, [0, 1]], triangles[:, [1, 2]], triangles[:, [2, 0]]])), axis=0
+    )
     places = points[welded.first]
     lengths = np.linalg.norm(places[edges[:, 0]] - places[edges[:, 1]], axis=1)
     around: list[list[tuple[int, float]]] = [[] for _ in places]
@@ -216,9 +218,8 @@ def _plugged(
             gap = 0.0 if gap > rule.max_touch and _is_within(ends[number], other) else gap
             if gap <= rule.max_touch:
                 rows.append((number, thing, gap))
-    rows.sort()
-    number, thing, gap = zip(*rows, strict=True) if rows else ((), (), ())
-    return np.array(number, np.int64), np.array(thing, np.int64), np.array(gap, np.float64)
+    table = np.array(sorted(rows), np.float64).reshape(-1, 3)
+    return table[:, 0].astype(np.int64), table[:, 1].astype(np.int64), table[:, 2]
 
 
 def _is_within(end: Solid, other: Solid) -> bool:
