@@ -137,13 +137,16 @@ class _Finder:
         stronger.add_support([links.where(~stronger.is_attached[links.target]) for links in doubtful])
         resting = [links.where(~(is_doubtful & stronger.is_attached)[links.target]) for links in resting]
         beside = find_held_beside_support(self.boxed, self.classes, resting[0], attached.links, self.rules.attached)
-        yield from stronger.replace_support(resting, beside)
-        yield beside
-        yield from self._propped(attached, support)
         surfaces = self.classes.are_in("not_contained") | self.classes.are_in("mounts")
         is_fitted = surfaces[self.boxed.scene_index]
         inside = find_hung_inside(self.boxed, stronger, support.at_floor, is_fitted, self.rules.attached)
+        hung = np.zeros(len(self.boxed), np.bool_)
+        hung[inside.target] = True
+        resting = stronger.withdraw_support(resting, hung)
         yield stronger.add_attached(inside)
+        yield from stronger.replace_support(resting, beside)
+        yield beside
+        yield from self._propped(attached, support)
         may_hover = stronger.may_hover & ~support.at_floor
         over = find_hovering(self.boxed, support.near, may_hover, containment.container, self.rules)
         yield from stronger.add_support([over])

@@ -36,6 +36,8 @@ def find_hung_inside(
     """
     container = stronger.container
     is_content = stronger.may_hover & (container >= 0) & ~is_low & ~is_left_out
+    # What is on something that nothing supports may carry it: a hanger its coat.
+    is_content |= (stronger.supporter >= 0) & is_content[stronger.supporter] & ~is_low & ~is_left_out
     inside = np.where(container >= 0, container, stronger.frame)
     target, anchor = _hooked(boxed, np.flatnonzero(is_content), inside, is_left_out, rule)
     is_held = (stronger.frame >= 0) & (stronger.frame != container)
