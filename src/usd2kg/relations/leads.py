@@ -81,13 +81,16 @@ def find_leads(
     is_ground = (classes.are_in("mounts") | classes.are_in("not_mounts"))[boxed.scene_index]
     leads: list[int] = []
     ends: list[Solid] = []
+    tubes: dict[tuple[tuple[int, int, bytes], ...], _Tube | None] = {}
     for index in np.flatnonzero(may_lead & boxed.has_surface & ~is_ground).tolist():
         surface = boxed.surfaces[index]
         if surface is None or not _MIN_TRIANGLES <= surface.triangle_count <= _MAX_TRIANGLES:
             continue
-        corners = surface.corners
-        tube = _measure_tube(corners, float(np.linalg.norm(boxed.size[index])), rule)
-        if tube is not None and (found := _find_ends(corners, tube)) is not None:
+        key = _form_of(surface)
+        if key not in tubes:
+            tubes[key] = _measure_tube(surface.corners, float(np.linalg.norm(boxed.size[index])), rule)
+        tube = tubes[key]
+        if tube is not None and (found := _find_ends(surface.corners, tube)) is not None:
             leads.append(index)
             ends.extend(map(_as_solid, found))
     owner = np.repeat(np.array(leads, np.int64), 2)
@@ -108,6 +111,11 @@ def find_leads(
     confidence = margin_score(margin_below(gap[best], np.full(len(best), rule.max_touch)))
     links = Links("attached-to", rule.rule, lead[best], thing[best], {"gap": gap[best]}, confidence)
     return Leads(links, lead, thing)
+
+
+def _form_of(surface: Surface) -> tuple[tuple[int, int, bytes], ...]:
+    """Return a key that is the same for moved copies of a surface."""
+    return tuple([(id(piece.points), id(piece.triangles), piece.matrix[:3, :3].tobytes()) for piece in surface.pieces])
 
 
 def _measure_tube(corners: Array, diagonal: float, rule: AttachedRule) -> _Tube | None:
