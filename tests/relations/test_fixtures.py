@@ -81,13 +81,13 @@ class TestNails:
 class TestRadiators:
     RADIATOR = artifact("radiator", (0, 2.91, 0.14), (1.28, 0.064, 0.48))
     """2.6 cm off the wall."""
-    VALVE = artifact("valve", (1.282, 2.913, 0.56), (0.1, 0.058, 0.052))
+    SENSOR = artifact("sensor", (1.282, 2.913, 0.56), (0.1, 0.058, 0.052))
     """2.9 cm off the wall, 2 mm off the radiator, at its upper end."""
 
-    def test_a_radiator_does_not_hang_from_its_valve(self):
-        assert held(self.RADIATOR, self.VALVE) == {
+    def test_a_radiator_does_not_hang_from_its_sensor(self):
+        assert held(self.RADIATOR, self.SENSOR) == {
             ("radiator", "attached-to", "wall"),
-            ("valve", "attached-to", "radiator"),
+            ("sensor", "attached-to", "radiator"),
         }
 
     def test_a_box_of_the_same_size_is_at_the_wall(self):

@@ -37,7 +37,7 @@ from usd2kg.relations.doubtful_support import (
 )
 from usd2kg.relations.floor_plan import draw_floor_plans
 from usd2kg.relations.hung_inside import find_hung_inside
-from usd2kg.relations.leads import find_leads
+from usd2kg.relations.leads import Leads, find_leads
 from usd2kg.relations.model import ALL_KINDS, ROOM_KINDS, SYMMETRIC_KINDS, VIEWPOINT_KINDS, Links, Relation
 from usd2kg.relations.object_kinds import find_kinds
 from usd2kg.relations.openings import find_openings
@@ -105,12 +105,7 @@ class _Finder:
         loose, container = stronger.is_loose, containment.container
         support = find_support(self.boxed, self.classes, loose, container, wholes, self.rules)
         resting = stronger.add_support(support.links)
-        # What is at the end of a cable does not rest on it.
-        is_whole = stronger.frame == stronger.container
-        leads = find_leads(self.boxed, self.classes, is_whole, stronger.holder, self.rules.attached)
-        at_end = np.zeros(len(self.boxed), np.bool_)
-        for links in resting:
-            at_end[links.target[leads.tie(links, len(self.boxed))]] = True
+        leads, at_end = self._leads(stronger, resting)
         # What would tip over and touches a wall hangs there.
         tipping = resting[0].target[are_unbalanced(self.boxed, resting[0])]
         is_at_wall = find_held_at_mounts(self.boxed, self.classes, np.unique(tipping), self.rules.attached)
@@ -137,12 +132,8 @@ class _Finder:
         stronger.add_support([links.where(~stronger.is_attached[links.target]) for links in doubtful])
         resting = [links.where(~(is_doubtful & stronger.is_attached)[links.target]) for links in resting]
         beside = find_held_beside_support(self.boxed, self.classes, resting[0], attached.links, self.rules.attached)
-        surfaces = self.classes.are_in("not_contained") | self.classes.are_in("mounts")
-        is_fitted = surfaces[self.boxed.scene_index]
-        inside = find_hung_inside(self.boxed, stronger, support.at_floor, is_fitted, self.rules.attached)
-        hung = np.zeros(len(self.boxed), np.bool_)
-        hung[inside.target] = True
-        resting = stronger.withdraw_support(resting, hung)
+        inside, is_hung = self._hung_inside(stronger, support)
+        resting = stronger.withdraw_support(resting, is_hung)
         yield stronger.add_attached(inside)
         yield from stronger.replace_support(resting, beside)
         yield beside
@@ -162,6 +153,24 @@ class _Finder:
             yield above
             yield reverse_links("below", above)
         yield from self._adjacent(kinds, takes_part, stronger)
+
+    def _leads(self, stronger: StrongerRelations, resting: list[Links]) -> tuple[Leads, Mask]:
+        """Return the cables with what they end in, and which objects only seem to rest on one at whose end they are."""
+        is_whole = stronger.frame == stronger.container
+        leads = find_leads(self.boxed, self.classes, is_whole, stronger.holder, self.rules.attached)
+        at_end = np.zeros(len(self.boxed), np.bool_)
+        for links in resting:
+            at_end[links.target[leads.tie(links, len(self.boxed))]] = True
+        return leads, at_end
+
+    def _hung_inside(self, stronger: StrongerRelations, support: Support) -> tuple[Links, Mask]:
+        """Return the `attached-to` links of what hangs in a container, and which objects hang so."""
+        surfaces = self.classes.are_in("not_contained") | self.classes.are_in("mounts")
+        is_fitted = surfaces[self.boxed.scene_index]
+        inside = find_hung_inside(self.boxed, stronger, support.at_floor, is_fitted, self.rules.attached)
+        is_hung = np.zeros(len(self.boxed), np.bool_)
+        is_hung[inside.target] = True
+        return inside, is_hung
 
     def _propped(self, attached: Attached, support: Support) -> Iterator[Links]:
         """Yield `attached-to` links, but `on` links where the anchor is below the feet of the target as well."""
