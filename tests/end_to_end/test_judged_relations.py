@@ -66,14 +66,11 @@ FLOORS = {
         "part-of": (0.97, 0.95),
         "attached-to": (0.97, 0.95),
     },
-    "salon": {"on": (0.96, 0.95), "inside": (0.97, 0.95), "part-of": (0.97, 0.95), "attached-to": (0.97, 0.95)},
-    "bicycle_shop": {
-        "on": (0.97, 0.95),
-        "inside": (0.97, 0.94),
-        "part-of": (0.97, 0.95),
-        "attached-to": (0.96, 0.95),
-    },
-    "garage": dict.fromkeys(("on", "inside", "part-of", "attached-to"), (0.97, 0.95)),
+    "salon": {"on": (0.97, 0.95), "inside": (0.97, 0.95), "part-of": (0.97, 0.95), "attached-to": (0.97, 0.95)},
+    **dict.fromkeys(
+        ("garage", "bicycle_shop", "pottery", "hotel"),
+        dict.fromkeys(("on", "inside", "part-of", "attached-to"), (0.97, 0.95)),
+    ),
 }
 
 
