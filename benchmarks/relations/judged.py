@@ -69,6 +69,7 @@ SCENES = {
     ),
     "pottery": Sources(ROOT / "benchmarks/scenes/pottery/pottery.usdc", (HERE / "judged/pottery.csv",)),
     "hotel": Sources(ROOT / "benchmarks/scenes/hotel/hotel.usdc", (HERE / "judged/hotel.csv",)),
+    "vet": Sources(ROOT / "benchmarks/scenes/vet/vet.usdc", (HERE / "judged/vet.csv",)),
 }
 
 
