@@ -61,6 +61,47 @@ class TestTelevisions:
         assert ("jar", "on", "shelf") in held(shelf, artifact("jar", (0, 2.85, 1.22), (0.1, 0.1, 0.15)))
 
 
+def test_a_hook_does_not_rest_on_the_cup_that_hangs_from_it():
+    shelf = artifact("shelf", (-0.5, 2.8, 1.5), (1.0, 0.2, 0.02))
+    hook = artifact("hook", (0, 2.84, 1.44), (0.006, 0.034, 0.06))
+    mug = Room(FLOOR, WALL, shelf, hook)
+    # The hook is in its handle; its bottom is 1.5 cm below the hook.
+    ring = boxes(
+        ((-0.04, 2.83, 1.34), (0.05, 2.9, 1.425)),
+        ((-0.005, 2.83, 1.425), (0.011, 2.84, 1.455)),
+        ((-0.005, 2.83, 1.447), (0.011, 2.87, 1.455)),
+    )
+    mug.mesh("mug", "Cup", ring)
+    assert mug.of("hook") == {("attached-to", "shelf")}
+    assert mug.of("mug") == {("attached-to", "hook")}
+
+
+def test_the_arms_of_a_lamp_hang_from_the_plate_at_the_ceiling():
+    ceiling = (thing("/ceiling", (-3, 0, 2.5), (6, 3, 0.1)), "Ceiling")
+    plate = artifact("plate", (0, 1, 2.3), (0.2, 0.2, 0.199))
+    arm = artifact("arm", (0.05, 1.05, 2.2), (0.1, 0.1, 0.099))
+    lamp = artifact("lamp", (0.02, 1.02, 2.0), (0.16, 0.16, 0.199))
+    assert held(ceiling, plate, arm, lamp) >= {
+        ("plate", "attached-to", "ceiling"),
+        ("arm", "attached-to", "plate"),
+        ("lamp", "attached-to", "arm"),
+    }
+
+
+def test_a_building_narrower_than_a_room_is_a_thing():
+    bank = boxes(
+        ((0, 0, 0), (0.05, 0.7, 1)), ((1.75, 0, 0), (1.8, 0.7, 1)), ((0, 0.65, 0), (1.8, 0.7, 1)),
+        ((0, 0, 0), (1.8, 0.7, 0.05)), ((0, 0, 0.95), (1.8, 0.7, 1)),
+    )  # fmt: skip
+    room = Room(FLOOR).mesh("bank", "Building", bank)
+    room.box("dog", "DesignedArtifact", (0.6, 0.2, 0.05), (0.5, 0.3, 0.3)).box(
+        "bag", "Box", (0.6, 0.2, 1), (0.3, 0.3, 0.2)
+    )
+    assert room.of("bank") == {("on", "floor")}
+    assert room.of("dog") == {("inside", "bank")}
+    assert room.of("bag") == {("on", "bank")}
+
+
 class TestNails:
     NAIL = artifact("nail", (0, 2.95, 1.95), (0.009, 0.042, 0.009))
 

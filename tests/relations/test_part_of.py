@@ -220,6 +220,18 @@ class TestNames:
         bar = (thing("/K/u/bar", lower, (0.2, 0.03, 0.01)), "DesignedArtifact")
         assert list(parts(self.UNIT, self.DRAWER, bar)) == [("/K/u/drawer", "/K/u/unit")]
 
+    def test_the_panel_of_a_group_named_after_a_door_is_the_door(self):
+        panel = (thing("/K/u/door_left/panel", (0, -0.02, 0), (0.4, 0.02, 0.7)), "DesignedArtifact")
+        bar = (thing("/K/u/door_left/bar", (0.35, -0.05, 0.3), (0.01, 0.03, 0.2)), "DesignedArtifact")
+        assert set(parts(self.UNIT, panel, bar)) == {
+            ("/K/u/door_left/panel", "/K/u/unit"),
+            ("/K/u/door_left/bar", "/K/u/door_left/panel"),
+        }
+
+    def test_a_panel_of_another_group_is_no_door(self):
+        panel = (thing("/K/u/left/panel", (0, -0.02, 0.2), (0.2, 0.02, 0.2)), "DesignedArtifact")
+        assert parts(self.UNIT, panel) == {}
+
     def test_a_dresser_with_drawers_is_a_dresser(self):
         dresser = (thing("/K/d/dresser_with_drawers", (0, 0, 0), (0.8, 0.5, 0.7)), "DesignedFurniture")
         drawer = (thing("/K/d/drawer", (0, -0.02, 0.4), (0.8, 0.5, 0.2)), "Drawer")

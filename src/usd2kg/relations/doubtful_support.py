@@ -50,6 +50,9 @@ def find_doubtful(
             is_hooked = are_interlocked(boxed, links.target, links.anchor, rule.min_interlock)
             is_hooked &= ~is_mount[links.target]
             leads = dangles[links.anchor] | (is_hooked & doubtful[links.anchor]) | hangs[links.target]
+            # The plate at the ceiling carries the arms of the lamp on which it seems to stand.
+            is_over = doubtful[links.anchor] & ~leads
+            leads |= is_over & find_held_at_mounts(boxed, classes, links.target[is_over], rule)[links.target]
             doubtful[links.target[leads]] = True
         if doubtful.sum() == count:
             return doubtful

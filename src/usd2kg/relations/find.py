@@ -7,7 +7,7 @@ from numpy.typing import NDArray
 
 from usd2kg.garbage import paused_collection
 from usd2kg.grounding import Grounding
-from usd2kg.ontology import TBox
+from usd2kg.ontology import TBox, expand_curie
 from usd2kg.relations.above_below import find_above, reverse_links
 from usd2kg.relations.adjacency import (
     NearbyPairs,
@@ -39,7 +39,7 @@ from usd2kg.relations.floor_plan import draw_floor_plans
 from usd2kg.relations.hung_inside import find_hung_inside
 from usd2kg.relations.leads import Leads, find_leads
 from usd2kg.relations.model import ALL_KINDS, ROOM_KINDS, SYMMETRIC_KINDS, VIEWPOINT_KINDS, Links, Relation
-from usd2kg.relations.object_kinds import find_kinds
+from usd2kg.relations.object_kinds import ObjectKind, find_kinds
 from usd2kg.relations.openings import find_openings
 from usd2kg.relations.options import RelationOptions
 from usd2kg.relations.part_nouns import find_noun_concepts
@@ -82,12 +82,25 @@ class _Finder:
         self.scene = scene
         self.rules = options.chosen_rules
         self.viewpoint = options.viewpoint
-        self.classes = ClassMembership(self.rules.classes, find_kinds(scene, tbox, grounding))
+        self.classes = ClassMembership(self.rules.classes, self._kinds(tbox, grounding))
         self.nouns = find_noun_concepts(scene, grounding, self.rules.part_of)
         self.boxed = BoxedObjects(scene.objects, self.rules.geometry, scene.surfaces)
         self.groups: list[str] = []
         """Paths of the group prims that are rooms, or names of the derived rooms."""
         self.derived: list[DerivedRoom] = []
+
+    def _kinds(self, tbox: TBox, grounding: Grounding) -> list[ObjectKind]:
+        """Return the kind of each object; nothing is known of what is too narrow for the building or room of its class.
+
+        A bank of cages is no bank.
+        """
+        found = find_kinds(self.scene, tbox, grounding)
+        spaces = frozenset(map(expand_curie, self.rules.classes.spaces))
+        for index, obj in enumerate(self.scene.objects):
+            is_narrow = obj.own_box is not None and min(obj.own_box.size[:2]) < self.rules.room.min_side
+            if is_narrow and not spaces.isdisjoint(found[index].above):
+                found[index] = ObjectKind()
+        return found
 
     def find(self, kinds: frozenset[str]) -> Iterator[Links]:
         """Yield the links of the kinds, and possibly of others; indices count all objects, then the groups."""
@@ -139,7 +152,9 @@ class _Finder:
         yield beside
         yield from self._propped(attached, support)
         may_hover = stronger.may_hover & ~support.at_floor
-        over = find_hovering(self.boxed, support.near, may_hover, containment.container, self.rules)
+        # A hook does not rest on the cup that hangs from it.
+        over_others = select_rows(support.near, stronger.holder[support.near.anchor] != support.near.target)
+        over = find_hovering(self.boxed, over_others, may_hover, containment.container, self.rules)
         yield from stronger.add_support([over])
         fixed = find_attached(self.boxed, self.classes, stronger, self.rules.attached, needs_mount=False)
         stronger.add_attached(fixed.links)

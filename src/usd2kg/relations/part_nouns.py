@@ -37,16 +37,24 @@ def find_noun_concepts(scene: Scene, grounding: Grounding, rule: PartOfRule) -> 
     """
     if not _saw_names(grounding):
         return [NounConcepts()] * len(scene.objects)
-    directions, faces = frozenset(rule.directions), frozenset(rule.faces)
+    directions, faces, forms = frozenset(rule.directions), frozenset(rule.faces), frozenset(rule.forms)
     prepositions = frozenset(rule.prepositions)
+
+    def noun_phrase(name: str) -> tuple[str, ...]:
+        words = tuple(takewhile(lambda word: word not in prepositions, words_of(name)))
+        while words and words[-1] in directions:
+            words = words[:-1]
+        return words
+
     found: list[NounConcepts] = []
     for obj in scene.objects:
         prediction = grounding.by_path.get(obj.prim_path)
         is_decided = prediction is not None and prediction.status is Status.REVIEWED
-        words = () if is_decided else words_of(obj.prim_path.rpartition("/")[2])
-        words = tuple(takewhile(lambda word: word not in prepositions, words))
-        while words and words[-1] in directions:
-            words = words[:-1]
+        group, _, name = obj.prim_path.rpartition("/")
+        words = () if is_decided else noun_phrase(name)
+        if len(words) == 1 and words[0] in forms:
+            # The panel of a group that is named after a door is the door.
+            words = noun_phrase(group.rpartition("/")[2]) or words
         found.append(NounConcepts() if not words or words[-1] in faces else _concepts_of(words))
     return found
 

@@ -257,6 +257,7 @@ class PartOfRule(NamedTuple):
     min_upright: float
     directions: tuple[str, ...]
     faces: tuple[str, ...]
+    forms: tuple[str, ...]
     prepositions: tuple[str, ...]
 
 
@@ -283,6 +284,7 @@ class ClassLists(NamedTuple):
     closed: tuple[str, ...]
     not_neighbours: tuple[str, ...]
     rooms: tuple[str, ...]
+    spaces: tuple[str, ...]
     room_walls: tuple[str, ...]
     doors: tuple[str, ...]
     windows: tuple[str, ...]
