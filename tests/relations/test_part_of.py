@@ -232,6 +232,17 @@ class TestNames:
         panel = (thing("/K/u/left/panel", (0, -0.02, 0.2), (0.2, 0.02, 0.2)), "DesignedArtifact")
         assert parts(self.UNIT, panel) == {}
 
+    def test_boards_are_parts_of_the_uprights_in_their_group(self):
+        uprights = (thing("/K/rack/uprights", (0, 0, 0), (1.0, 0.4, 1.8)), "DesignedComponent")
+        board = (thing("/K/rack/board_1", (0.02, 0.02, 0.5), (0.96, 0.36, 0.02)), "DesignedComponent")
+        chain = (thing("/K/rack/chain", (0.4, 0.1, 0.6), (0.1, 0.1, 0.3)), "DesignedComponent")
+        assert list(parts(uprights, board, chain)) == [("/K/rack/board_1", "/K/rack/uprights")]
+
+    def test_boards_on_a_rack_are_not_its_parts(self):
+        rack = (thing("/K/rack/rack", (0, 0, 0), (1.0, 0.4, 1.8)), "Rack")
+        board = (thing("/K/rack/board_1", (0.02, 0.02, 0.5), (0.96, 0.36, 0.02)), "DesignedComponent")
+        assert parts(rack, board) == {}
+
     def test_a_dresser_with_drawers_is_a_dresser(self):
         dresser = (thing("/K/d/dresser_with_drawers", (0, 0, 0), (0.8, 0.5, 0.7)), "DesignedFurniture")
         drawer = (thing("/K/d/drawer", (0, -0.02, 0.4), (0.8, 0.5, 0.2)), "Drawer")

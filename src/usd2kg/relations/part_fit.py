@@ -116,6 +116,8 @@ def _fit_by_surfaces(
     # A handle of a case, a pane in its frame, a rack on a door.
     is_on = (roles.handle | roles.fitting)[part] & ~roles.fitting[whole]
     is_on = is_fitted & (is_on | (roles.shelf[part] & roles.front[whole] & _are_beside_face(boxed, pairs)))
+    is_carried = (roles.component | roles.shelf)[part] & ~(roles.skeleton | roles.fastener)[part]
+    is_on |= is_fitted & is_carried & roles.skeleton[whole] & _are_slid_in(boxed, pairs, rule)
     is_on[is_on] = _are_touching(boxed, pairs.where(is_on), rule)
     yield is_on, 2
 

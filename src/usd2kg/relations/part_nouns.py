@@ -28,6 +28,8 @@ class NounConcepts(NamedTuple):
     """Of the last noun in any sense."""
     before: frozenset[str] = frozenset()
     """Of the words before it, in their usual senses."""
+    is_skeleton: bool = False
+    """Whether the last noun means what carries the other parts of a thing: a frame, uprights, a body."""
 
 
 def find_noun_concepts(scene: Scene, grounding: Grounding, rule: PartOfRule) -> list[NounConcepts]:
@@ -38,7 +40,7 @@ def find_noun_concepts(scene: Scene, grounding: Grounding, rule: PartOfRule) -> 
     if not _saw_names(grounding):
         return [NounConcepts()] * len(scene.objects)
     directions, faces, forms = frozenset(rule.directions), frozenset(rule.faces), frozenset(rule.forms)
-    prepositions = frozenset(rule.prepositions)
+    prepositions, skeletons = frozenset(rule.prepositions), frozenset(rule.skeletons)
 
     def noun_phrase(name: str) -> tuple[str, ...]:
         words = tuple(takewhile(lambda word: word not in prepositions, words_of(name)))
@@ -55,7 +57,8 @@ def find_noun_concepts(scene: Scene, grounding: Grounding, rule: PartOfRule) -> 
         if len(words) == 1 and words[0] in forms:
             # The panel of a group that is named after a door is the door.
             words = noun_phrase(group.rpartition("/")[2]) or words
-        found.append(NounConcepts() if not words or words[-1] in faces else _concepts_of(words))
+        known = NounConcepts() if not words or words[-1] in faces else _concepts_of(words)
+        found.append(known._replace(is_skeleton=bool(words) and words[-1] in skeletons))
     return found
 
 

@@ -35,6 +35,10 @@ class PartRoles(NamedTuple):
     """Other components by their class."""
     body: Mask
     """Furniture, appliances, cupboards and frames, to which fronts are fitted."""
+    fastener: Mask
+    """Fasteners, cords and pipes, which are between things rather than parts of one."""
+    skeleton: Mask
+    """What carries the other parts of a thing."""
     lamp: Mask
     host: Mask
     """What may have fitted parts at all: no rooms, walls, floors and handles."""
@@ -91,6 +95,8 @@ def find_roles(boxed: BoxedObjects, classes: ClassMembership, nouns: Sequence[No
         lamp_part=is_lamp_part,
         component=known.by_class("components") & ~(is_front | is_handle | is_body),
         body=is_body & ~is_front & ~is_handle,
+        fastener=known.by_either("fasteners"),
+        skeleton=known.are_skeletons(),
         lamp=known.by_class("lamps") & ~is_lamp_part & ~known.are_only_modified("lamps"),
         host=~never & ~is_handle,
     )
@@ -118,6 +124,10 @@ class _Roles:
     def by_either(self, name: str) -> Mask:
         """Whether the class, the concept or the last noun is in a list."""
         return self.by_class(name) | self.by_noun(name)
+
+    def are_skeletons(self) -> Mask:
+        """Whether the last noun of the name means what carries the other parts of a thing."""
+        return self._of_each([known.is_skeleton for known in self._known])
 
     def are_only_modified(self, name: str) -> Mask:
         """Whether a word before the last noun means a concept of a list, and the last noun cannot: `drawer_fork`."""

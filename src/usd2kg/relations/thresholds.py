@@ -258,6 +258,7 @@ class PartOfRule(NamedTuple):
     directions: tuple[str, ...]
     faces: tuple[str, ...]
     forms: tuple[str, ...]
+    skeletons: tuple[str, ...]
     prepositions: tuple[str, ...]
 
 
@@ -302,6 +303,7 @@ class ClassLists(NamedTuple):
     lamp_parts: tuple[str, ...]
     lamps: tuple[str, ...]
     frames: tuple[str, ...]
+    fasteners: tuple[str, ...]
     handles: tuple[str, ...]
     containment_disposition: str
 
