@@ -67,6 +67,7 @@ FLOORS = {
         "attached-to": (0.97, 0.95),
     },
     "salon": {"on": (0.97, 0.95), "inside": (0.97, 0.95), "part-of": (0.97, 0.95), "attached-to": (0.97, 0.95)},
+    "vet": {"on": (0.93, 0.95), "inside": (0.97, 0.95), "part-of": (0.93, 0.75), "attached-to": (0.92, 0.9)},
     **dict.fromkeys(
         ("garage", "bicycle_shop", "pottery", "hotel"),
         dict.fromkeys(("on", "inside", "part-of", "attached-to"), (0.97, 0.95)),
