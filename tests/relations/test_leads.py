@@ -6,7 +6,7 @@ from tests.graph.records import thing
 from tests.relations.room_builder import FLOOR, RULES, TABLE, Placed
 from tests.relations.test_surfaces import Room
 from tests.shapes.solids import Surface, surface_of
-from usd2kg.relations.leads import _find_ends, _measure_tube
+from usd2kg.relations.leads import _find_ends, _measure_tubes
 
 SIDES = 8
 
@@ -70,7 +70,7 @@ def test_what_is_at_the_end_of_a_hose_does_not_rest_on_it():
 class TestTubes:
     def test_the_length_follows_from_area_and_volume(self):
         corners = CABLE.corners
-        found = _measure_tube(corners, 0.5, RULES.attached)
+        (found,) = _measure_tubes([corners], np.array([0.5]), RULES.attached)
         assert found is not None
         assert abs(found.length - 0.455) < 0.05
         assert abs(found.thickness - 0.0055) < 0.0007
@@ -78,11 +78,11 @@ class TestTubes:
     def test_a_rod_that_is_thick_and_a_sheet_are_none(self):
         rod = tube((0, 0, 0), (0.1, 0, 0), (0.2, 0, 0), radius=0.02).corners
         sheet = surface_of([(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0.001)], [(0, 1, 2), (0, 2, 3)]).corners
-        assert _measure_tube(rod, 0.2, RULES.attached) is None
-        assert _measure_tube(sheet, 1.4, RULES.attached) is None
+        measured = _measure_tubes([rod, CABLE.corners, sheet], np.array([0.2, 0.5, 1.4]), RULES.attached)
+        assert [found is None for found in measured] == [True, False, True]
 
     def test_the_ends_are_at_both_ends(self):
-        found = _measure_tube(CABLE.corners, 0.5, RULES.attached)
+        (found,) = _measure_tubes([CABLE.corners], np.array([0.5]), RULES.attached)
         assert found is not None
         ends = _find_ends(CABLE.corners, found)
         assert ends is not None

@@ -1,6 +1,7 @@
 """Leads: cables and hoses between two things, known by their form alone."""
 
 import heapq
+from collections.abc import Sequence
 from typing import NamedTuple
 
 import numpy as np
@@ -26,6 +27,8 @@ _MIN_TRIANGLES = 16
 """A bent tube has at least two pieces with four sides each."""
 _MAX_TRIANGLES = 5000
 """Triangles beyond which the ends of a tube are not looked for; bounds the running time."""
+_BLOCK = 1000
+"""Objects whose surfaces are measured together; affects only speed and memory."""
 _MAX_COILS = 4.0
 """Length of a tube over the diagonal of its box; sheets seem to be much longer tubes."""
 _MISFIT = 0.25
@@ -81,16 +84,9 @@ def find_leads(
     is_ground = (classes.are_in("mounts") | classes.are_in("not_mounts"))[boxed.scene_index]
     leads: list[int] = []
     ends: list[Solid] = []
-    tubes: dict[tuple[tuple[int, int, bytes], ...], _Tube | None] = {}
-    for index in np.flatnonzero(may_lead & boxed.has_surface & ~is_ground).tolist():
+    for index, tube in _find_tubes(boxed, np.flatnonzero(may_lead & boxed.has_surface & ~is_ground), rule).items():
         surface = boxed.surfaces[index]
-        if surface is None or not _MIN_TRIANGLES <= surface.triangle_count <= _MAX_TRIANGLES:
-            continue
-        key = _form_of(surface)
-        if key not in tubes:
-            tubes[key] = _measure_tube(surface.corners, float(np.linalg.norm(boxed.size[index])), rule)
-        tube = tubes[key]
-        if tube is not None and (found := _find_ends(surface.corners, tube)) is not None:
+        if surface is not None and (found := _find_ends(surface.corners, tube)) is not None:
             leads.append(index)
             ends.extend(map(_as_solid, found))
     owner = np.repeat(np.array(leads, np.int64), 2)
@@ -113,25 +109,60 @@ def find_leads(
     return Leads(links, lead, thing)
 
 
+def _find_tubes(boxed: BoxedObjects, indices: Indices, rule: AttachedRule) -> dict[int, _Tube]:
+    """Return object → the thin tube that its surface may be, in the order of the objects."""
+    forms: dict[tuple[tuple[int, int, bytes], ...], list[int]] = {}
+    for index in indices.tolist():
+        surface = boxed.surfaces[index]
+        if surface is not None and _MIN_TRIANGLES <= surface.triangle_count <= _MAX_TRIANGLES:
+            forms.setdefault(_form_of(surface), []).append(index)
+    # Moved copies have the form of the first.
+    copies = list(forms.values())
+    found: dict[int, _Tube] = {}
+    for start in range(0, len(copies), _BLOCK):
+        block = copies[start : start + _BLOCK]
+        first = np.array([alike[0] for alike in block], np.int64)
+        surfaces = [surface.corners for index in first.tolist() if (surface := boxed.surfaces[index]) is not None]
+        tubes = _measure_tubes(surfaces, np.linalg.norm(boxed.size[first], axis=1), rule)
+        found.update((index, tube) for alike, tube in zip(block, tubes, strict=True) if tube for index in alike)
+    return dict(sorted(found.items()))
+
+
 def _form_of(surface: Surface) -> tuple[tuple[int, int, bytes], ...]:
     """Return a key that is the same for moved copies of a surface."""
     return tuple([(id(piece.points), id(piece.triangles), piece.matrix[:3, :3].tobytes()) for piece in surface.pieces])
 
 
-def _measure_tube(corners: Array, diagonal: float, rule: AttachedRule) -> _Tube | None:
-    """Return the tube of the same area πdl and volume πd²l/4; None if it is too thick, or coiled up like a sheet."""
+def _measure_tubes(surfaces: Sequence[Array], diagonals: Array, rule: AttachedRule) -> list[_Tube | None]:
+    """Return the tubes of the same area πdl and volume πd²l/4; None for what is too thick, or coiled up like a sheet.
+
+    Args:
+        surfaces: the triangles (m, 3, 3) of each surface, at least one.
+        diagonals: (n,), those of their boxes in metres.
+        rule: the thresholds.
+    """
+    area, volume = _areas_and_volumes(surfaces)
+    thickness = 4 * volume / np.maximum(area, _SMALLEST)
+    length = area / (np.pi * np.maximum(thickness, _SMALLEST))
+    is_tube = (thickness > 0) & (length >= rule.min_lead_slenderness * thickness) & (length <= _MAX_COILS * diagonals)
+    rows = zip(length.tolist(), thickness.tolist(), is_tube.tolist(), strict=True)
+    return [_Tube(*measured) if good else None for *measured, good in rows]
+
+
+def _areas_and_volumes(surfaces: Sequence[Array]) -> tuple[Array, Array]:
+    """Return the area (n,) and the enclosed volume (n,) of surfaces by their triangles, (m, 3, 3) each.
+
+    Sums over the triangles of many surfaces are many times faster than those of one after the other.
+    """
+    counts = np.array([len(corners) for corners in surfaces], np.int64)
+    starts = np.cumsum(counts) - counts
+    corners = np.concatenate(surfaces)
+    # About a point near each surface, which keeps the terms of the sums small.
+    corners = corners - np.repeat(corners[starts, 0], counts, axis=0)[:, None]
     one, other, third = corners[:, 0], corners[:, 1], corners[:, 2]
-    area = float(np.linalg.norm(np.cross(other - one, third - one), axis=1).sum()) / 2
-    if area <= 0 or np.pi * (_MAX_COILS * diagonal) ** 2 < rule.min_lead_slenderness * area:
-        return None
-    centre = corners.mean(axis=(0, 1))
-    volume = abs(float(np.einsum("ij,ij->", one - centre, np.cross(other - centre, third - centre)))) / 6
-    thickness = 4 * volume / area
-    if thickness <= 0:
-        return None
-    length = area / (np.pi * thickness)
-    is_slender = length >= rule.min_lead_slenderness * thickness
-    return _Tube(length, thickness) if is_slender and length <= _MAX_COILS * diagonal else None
+    doubled = np.linalg.norm(np.cross(other - one, third - one), axis=1)
+    signed = np.einsum("ij,ij->i", one, np.cross(other, third))
+    return np.add.reduceat(doubled, starts) / 2, np.abs(np.add.reduceat(signed, starts)) / 6
 
 
 def _find_ends(corners: Array, tube: _Tube) -> tuple[Array, Array] | None:
