@@ -48,7 +48,8 @@ from usd2kg.relations.plan_membership import find_plan_members
 from usd2kg.relations.room_membership import find_rooms, placed_in_rooms
 from usd2kg.relations.sides import find_sides
 from usd2kg.relations.stronger import StrongerRelations
-from usd2kg.relations.support import Support, are_unbalanced, find_hovering, find_propped, find_support
+from usd2kg.relations.support import Support, find_support
+from usd2kg.relations.weak_support import are_unbalanced, find_hovering, find_propped
 from usd2kg.scene import Scene
 from usd2kg.tracing import traced
 
