@@ -2,19 +2,10 @@
 
 import numpy as np
 import pytest
-from pxr import Kind, Usd, UsdGeom
 
-from benchmarks.relations.judged import KINDS, SCENES, read_judged
-from benchmarks.scenes.bicycle_shop.build import STAGE, build
 from benchmarks.scenes.bicycle_shop.parts import block, cube, height, open_box, ring, tube, vessel
 from benchmarks.scenes.bicycle_shop.stage import Asset, Shop
-
-
-def bounds(stage: Usd.Stage, path: str) -> list[float]:
-    """Return the lowest and highest corner of a prim in the world, in centimetres."""
-    cache = UsdGeom.BBoxCache(Usd.TimeCode.Default(), [UsdGeom.Tokens.default_])
-    box = cache.ComputeWorldBound(stage.GetPrimAtPath(path)).ComputeAlignedRange()
-    return [*box.GetMin(), *box.GetMax()]
+from tests.world_bounds import bounds
 
 
 def test_shapes_have_their_sizes():
@@ -37,18 +28,3 @@ def test_groups_turn_what_is_in_them(tmp_path):
     assert bounds(shop.stage, shop.things[2]) == pytest.approx([92, -1, -1, 100, 1, 1], abs=1e-4)
     with pytest.raises(ValueError, match="Beam is placed twice"):
         group.put("Beam", cube(1, 1, 1))
-
-
-def test_the_stage_is_what_the_script_writes(tmp_path):
-    build(tmp_path / "shop.usdc")
-    written, stored = (Usd.Stage.Open(str(path)) for path in (tmp_path / "shop.usdc", STAGE))
-    assert written.GetRootLayer().ExportToString() == stored.GetRootLayer().ExportToString()
-
-
-def test_the_components_are_the_judged_objects():
-    stage = Usd.Stage.Open(str(STAGE))
-    prims = {str(prim.GetPath()) for prim in stage.Traverse() if Usd.ModelAPI(prim).GetKind() == Kind.Tokens.component}
-    facts = [fact for path in SCENES["bicycle_shop"].judged for fact in read_judged(path)]
-    assert {fact.subject for fact in facts} == prims
-    assert {path for fact in facts for path in fact.objects} - {"*", ""} <= prims
-    assert {kind for fact in facts for kind in fact.kinds} <= {*KINDS, "nothing"}

@@ -3,9 +3,9 @@
 Usage: python -m benchmarks.scenes.hotel.build [-o FILE]
 """
 
-import argparse
 from pathlib import Path
 
+from benchmarks.scenes.command import run_command
 from benchmarks.scenes.hotel.bathroom import build_bathroom
 from benchmarks.scenes.hotel.bed import build_bed
 from benchmarks.scenes.hotel.buffet import build_buffet
@@ -51,10 +51,7 @@ def build(out: Path) -> int:
 
 def main() -> None:
     """Write the stage and print the number of its objects."""
-    parser = argparse.ArgumentParser(description=(__doc__ or "").split("\n")[0])
-    parser.add_argument("-o", dest="out", type=Path, default=STAGE, help="stage to write (default: %(default)s)")
-    out = parser.parse_args().out
-    print(f"{out}: {build(out)} objects")
+    run_command(__doc__ or "", STAGE, build)
 
 
 if __name__ == "__main__":

@@ -3,9 +3,9 @@
 Usage: python -m benchmarks.scenes.pottery.build [-o FILE]
 """
 
-import argparse
 from pathlib import Path
 
+from benchmarks.scenes.command import run_command
 from benchmarks.scenes.pottery.building import build_house
 from benchmarks.scenes.pottery.drying import build_drying
 from benchmarks.scenes.pottery.glaze import build_glaze_kitchen
@@ -20,8 +20,8 @@ __all__ = ["STAGE", "build"]
 STAGE = Path(__file__).parent / "pottery.usdc"
 
 
-def build(out: Path) -> list[str]:
-    """Write the stage; return the prim paths of its objects."""
+def build(out: Path) -> int:
+    """Write the stage; return the number of its objects."""
     pottery = Pottery(out)
     build_house(pottery)
     build_hall(pottery)
@@ -31,15 +31,12 @@ def build(out: Path) -> list[str]:
     build_wash_area(pottery)
     build_shop(pottery)
     pottery.stage.Save()
-    return pottery.things
+    return len(pottery.things)
 
 
 def main() -> None:
     """Write the stage and print the number of its objects."""
-    parser = argparse.ArgumentParser(description=(__doc__ or "").split("\n")[0])
-    parser.add_argument("-o", dest="out", type=Path, default=STAGE, help="stage to write (default: %(default)s)")
-    out = parser.parse_args().out
-    print(f"{out}: {len(build(out))} objects")
+    run_command(__doc__ or "", STAGE, build)
 
 
 if __name__ == "__main__":

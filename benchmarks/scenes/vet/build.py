@@ -3,9 +3,9 @@
 Usage: python -m benchmarks.scenes.vet.build [-o FILE]
 """
 
-import argparse
 from pathlib import Path
 
+from benchmarks.scenes.command import run_command
 from benchmarks.scenes.vet.building import build_shell
 from benchmarks.scenes.vet.cabinets import build_cabinets
 from benchmarks.scenes.vet.consult import build_consult
@@ -46,10 +46,7 @@ def build(out: Path) -> int:
 
 def main() -> None:
     """Write the stage and print the number of its objects."""
-    parser = argparse.ArgumentParser(description=(__doc__ or "").split("\n")[0])
-    parser.add_argument("-o", dest="out", type=Path, default=STAGE, help="stage to write (default: %(default)s)")
-    out = parser.parse_args().out
-    print(f"{out}: {build(out)} objects")
+    run_command(__doc__ or "", STAGE, build)
 
 
 if __name__ == "__main__":
