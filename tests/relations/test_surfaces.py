@@ -6,7 +6,7 @@ import pytest
 from tests.graph.records import thing
 from tests.relations.room_builder import FLOOR, RULES, Placed, artifact, relate
 from tests.relations.test_part_of import joint
-from tests.shapes.solids import Surface, boxes, open_box, table, turned
+from tests.shapes.solids import Surface, boxes, open_box, surface_of, table, turned
 from usd2kg.relations import Relation
 from usd2kg.scene import Box
 
@@ -305,7 +305,7 @@ class TestContainers:
     def test_a_lid_in_the_opening_of_a_pot_is_not_in_it(self):
         pot = turned((0, 0), (0.1, 0), (0.1, 0.14), (0.12, 0.14), (0.12, 0.15), (0.09, 0.15), (0.09, 0.01), (0, 0.01))
         room = Room(FLOOR).mesh("pot", "Pot", pot)
-        lid = turned((0, 0.14), (0.085, 0.14), (0.085, 0.15), (0.1, 0.15), (0.1, 0.16), (0.02, 0.17), (0, 0.2))
+        lid = turned((0, 0.12), (0.085, 0.12), (0.085, 0.15), (0.1, 0.15), (0.1, 0.16), (0.02, 0.17), (0, 0.18))
         room.mesh("lid", "Lid", lid)
         assert room.of("lid") == {("on", "pot")}
 
@@ -355,9 +355,12 @@ class TestContacts:
 
     def test_what_stands_in_a_tray_that_is_pressed_into_a_cloth_is_on_the_tray(self):
         room = Room(FLOOR).mesh("table", "Table", table((0, 0, 0), (1, 1, 0.7)))
-        room.mesh("cloth", "DesignedArtifact", boxes(((-0.1, -0.1, 0.7), (1.1, 1.1, 0.705))))
-        room.mesh("tray", "DesignedArtifact", open_box((0.2, 0.2, 0.699), (0.7, 0.6, 0.72)))
-        room.mesh("glass", "Glass", turned((0, 0.711), (0.03, 0.711), (0.03, 0.8), (0, 0.8), at=(0.45, 0.4, 0)))
+        # It hangs down on one side, and the tray is a sheet without an underside.
+        cloth = boxes(((-0.1, -0.1, 0.7), (1.1, 1.1, 0.705)), ((-0.105, -0.1, 0.5), (-0.1, 1.1, 0.705)))
+        room.mesh("cloth", "DesignedArtifact", cloth)
+        corners = [(0.2, 0.2, 0.706), (0.7, 0.2, 0.706), (0.7, 0.6, 0.706), (0.2, 0.6, 0.706)]
+        room.mesh("tray", "DesignedArtifact", surface_of(corners, [(0, 1, 2), (0, 2, 3)]))
+        room.mesh("glass", "Glass", turned((0, 0.708), (0.03, 0.708), (0.03, 0.8), (0, 0.8), at=(0.45, 0.4, 0)))
         assert room.of("glass") == {("on", "tray")}
 
     def test_a_worktop_is_on_the_cabinets_and_not_on_their_doors(self):

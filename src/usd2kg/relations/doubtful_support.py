@@ -14,7 +14,7 @@ from usd2kg.relations.mount_pairs import find_near_pairs
 from usd2kg.relations.stronger import StrongerRelations
 from usd2kg.relations.thresholds import AttachedRule
 
-__all__ = ["find_doubtful", "find_held_at_mounts", "find_held_beside_support", "find_stuck"]
+__all__ = ["find_doubtful", "find_held_at_mounts", "find_held_beside_support", "find_stuck", "without_unheld"]
 
 Indices = NDArray[np.int64]
 Mask = NDArray[np.bool_]
@@ -56,6 +56,30 @@ def find_doubtful(
             doubtful[links.target[leads]] = True
         if doubtful.sum() == count:
             return doubtful
+
+
+def without_unheld(
+    boxed: BoxedObjects, classes: ClassMembership, frame: Indices, support: Sequence[Links], rule: AttachedRule
+) -> list[Links]:
+    """Return `on` links without those to what nothing holds, if something else supports the target: hooks of a shelf.
+
+    Args:
+        boxed: the objects.
+        classes: membership in class lists.
+        frame: the whole or the container of each object, -1 for none.
+        support: the `on` links found so far.
+        rule: the thresholds.
+    """
+    is_held = frame >= 0
+    for links in support:
+        is_held[links.target] = True
+    anchors = np.unique(np.concatenate([links.anchor for links in support]))
+    dangles = np.zeros(len(boxed), np.bool_)
+    dangles[high_enough(boxed, classes, anchors[~is_held[anchors]], rule)] = True
+    is_firm = np.zeros(len(boxed), np.bool_)
+    for links in support:
+        is_firm[links.target[~dangles[links.anchor]]] = True
+    return [links.where(~(dangles[links.anchor] & is_firm[links.target])) for links in support]
 
 
 def find_stuck(boxed: BoxedObjects, classes: ClassMembership, on: Links, rule: AttachedRule) -> Mask:

@@ -34,6 +34,7 @@ from usd2kg.relations.doubtful_support import (
     find_held_at_mounts,
     find_held_beside_support,
     find_stuck,
+    without_unheld,
 )
 from usd2kg.relations.floor_plan import draw_floor_plans
 from usd2kg.relations.hung_inside import find_hung_inside
@@ -118,7 +119,8 @@ class _Finder:
         stronger = StrongerRelations(self.boxed, containment, parts)
         loose, container = stronger.is_loose, containment.container
         support = find_support(self.boxed, self.classes, loose, container, wholes, self.rules)
-        resting = stronger.add_support(support.links)
+        firm = without_unheld(self.boxed, self.classes, stronger.frame, support.links, self.rules.attached)
+        resting = stronger.add_support(firm)
         leads, at_end = self._leads(stronger, resting)
         # What would tip over and touches a wall hangs there.
         tipping = resting[0].target[are_unbalanced(self.boxed, resting[0])]
