@@ -21,6 +21,7 @@ def labels(graph: GraphStore, question: str) -> Sequence[str | None]:
     ("question", "expected"),
     [
         ("Which bowls are in the wall cabinets?", ["cerealBowl_1", "cerealBowl_2", "geo_bowlSmall"]),
+        ("Which bowls have been put in the wall cabinets?", ["cerealBowl_1", "cerealBowl_2", "geo_bowlSmall"]),
         ("Name everything on the window sill except the plants.", ["vase_empty_02"]),
         ("What stands on the sideboard besides the radio?", ["birdCage", "cakeStand", "vase_tall"]),
         ("Which drawers contain both a knife and a spoon?", ["drwr_R1"]),
@@ -31,6 +32,20 @@ def labels(graph: GraphStore, question: str) -> Sequence[str | None]:
 )
 def test_objects(kitchen: GraphStore, question: str, expected: Sequence[str]):
     assert labels(kitchen, question) == expected
+
+
+@pytest.mark.parametrize(
+    ("question", "answer"),
+    [
+        ("Name every lamp that is not on the ceiling.", "There is a candle that is not on the ceiling."),
+        (
+            "Name every chair that is not at the window.",
+            "There are five chairs, three barstools and an armchair that are not at the window.",
+        ),
+    ],
+)
+def test_a_pattern_for_lists_yields_to_composition(kitchen: GraphStore, question: str, answer: str):
+    assert ask_offline(kitchen, question).sentence == answer
 
 
 @pytest.mark.parametrize(

@@ -341,4 +341,7 @@ class TestCopies:
         alone = LexicalGrounder().ground_views(views, home_tbox)
         monkeypatch.setattr("usd2kg.grounding.lexical.grounder._MANY_OBJECTS", 2)
         monkeypatch.setattr(os, "sched_getaffinity", lambda _: {0, 1}, raising=False)
+        forked: list[int] = []
+        monkeypatch.setattr(os, "fork", lambda fork=os.fork: forked.append(fork()) or forked[-1])
         assert LexicalGrounder().ground_views(views, home_tbox) == alone
+        assert len(forked) == 1

@@ -5,7 +5,7 @@ import numpy as np
 from tests.graph.records import thing
 from tests.relations.room_builder import FLOOR, RULES, TABLE, Placed
 from tests.relations.test_surfaces import Room
-from tests.shapes.solids import Surface, surface_of
+from tests.shapes.solids import Surface, boxes, surface_of
 from usd2kg.relations.leads import _find_ends, _measure_tubes
 
 SIDES = 8
@@ -77,7 +77,7 @@ class TestTubes:
 
     def test_a_rod_that_is_thick_and_a_sheet_are_none(self):
         rod = tube((0, 0, 0), (0.1, 0, 0), (0.2, 0, 0), radius=0.02).corners
-        sheet = surface_of([(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0.001)], [(0, 1, 2), (0, 2, 3)]).corners
+        sheet = boxes(((0, 0, 0), (1, 1, 0.001))).corners
         measured = _measure_tubes([rod, CABLE.corners, sheet], np.array([0.2, 0.5, 1.4]), RULES.attached)
         assert [found is None for found in measured] == [True, False, True]
 
