@@ -2,6 +2,7 @@
 
 from collections.abc import Mapping
 from dataclasses import replace
+from functools import lru_cache
 
 from usd2kg.garbage import paused_collection
 from usd2kg.grounding.context.views import ObjectView, view_objects
@@ -69,6 +70,7 @@ def concepts_named(noun: str) -> tuple[str, ...]:
     return recognition.concepts_of_noun(noun)
 
 
+@lru_cache(maxsize=4096)
 def hypernyms_of(noun: str) -> frozenset[str]:
     """Return the labels of the usual sense of a noun and of all its hypernyms; empty for an unknown noun."""
     from usd2kg.grounding.lexical import recognition  # noqa: PLC0415

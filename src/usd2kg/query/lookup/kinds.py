@@ -12,7 +12,7 @@ from usd2kg.grounding import concepts_named, hypernyms_of
 from usd2kg.knowledge import word_map
 from usd2kg.ontology import expand_curie
 from usd2kg.query.lookup.facts import SceneFacts
-from usd2kg.query.lookup.unnamed_copies import find_copies
+from usd2kg.query.lookup.unnamed_copies import UnnamedCopies
 from usd2kg.query.lookup.word_forms import name_words, singular
 from usd2kg.query.settings import WORDS
 
@@ -46,6 +46,7 @@ class Kinds:
 
     def __init__(self, facts: SceneFacts) -> None:
         self._facts = facts
+        self._copies = UnnamedCopies(facts)
 
     def find(self, name: str) -> list[ox.NamedNode]:
         """Return the classes with this label, local name, CURIE or IRI, and the concepts that the noun may mean."""
@@ -59,7 +60,7 @@ class Kinds:
         found = self._facts.members(str(kind.value) for kind in self._below(self.find(name)))
         chosen = {iri for iri, sure in found.items() if sure >= WORDS.min_confidence} or set(found)
         chosen |= self._of_class_with_other_name(name)
-        return chosen | find_copies(self._facts, {iri for iri in chosen if self._facts.concept(iri)})
+        return chosen | self._copies.find({iri for iri in chosen if self._facts.concept(iri)})
 
     @cached_property
     def used_labels(self) -> list[str]:
