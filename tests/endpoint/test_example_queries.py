@@ -49,6 +49,14 @@ def test_the_objects_of_a_relation_are_asked_about(home_tbox):
     assert not any(title.startswith(("Which joints", "Which rooms", "What is on the same")) for title in found)
 
 
+def test_what_carries_something_heavy_is_asked_about_for_heavy_things(home_tbox):
+    heavy = thing("/Table/Cup", (0.4, 0.4, 1), (0.3, 0.3, 0.3), name="heavy cup", mass_kg=8.0), "Cup"
+    light = thing("/Table/Cup", (0.4, 0.4, 1), (0.3, 0.3, 0.3), name="light cup", mass_kg=4.0), "Cup"
+    found = examples(store_of(home_tbox, TABLE, heavy, FAR))
+    assert found["What is heavier than 5 kg and within 1 m of Table?"] == ["heavy cup"]
+    assert not any(title.startswith("What is heavier") for title in examples(store_of(home_tbox, TABLE, light, FAR)))
+
+
 def test_a_graph_without_objects_has_few_examples():
     assert [one.title for one in make_examples(GraphStore.from_triples((), "g").store)] == [
         "How many objects of each class are there?"
