@@ -1,14 +1,13 @@
 """Write the things as a stage: Z up, centimetres, groups with their own transforms."""
 
-import hashlib
 from collections.abc import Sequence
 from pathlib import Path
 from typing import Any, NamedTuple
 
-import numpy as np
-from pxr import Gf, Kind, Usd, UsdGeom
+from pxr import Gf, Kind, Sdf, Usd, UsdGeom
 
 from benchmarks.scenes.bicycle_shop.parts import Mesh, Part, Primitive, Scatter, Vector, height
+from benchmarks.scenes.prims import draw, write_instance, write_mesh
 
 __all__ = ["Asset", "Group", "Shop"]
 
@@ -95,24 +94,17 @@ class Group(NamedTuple):
         parts = (
             what.parts if isinstance(what, Asset) else [what] if isinstance(what, Mesh | Primitive | Scatter) else what
         )
-        digest = hashlib.sha256(f"{self.path}/{name}".encode()).digest()
         tall = max(height(part) for part in parts)
-        slip = max(SLIPS[digest[0] % len(SLIPS)], -0.25 * tall)
+        slip = max(draw(f"{self.path}/{name}", SLIPS), -0.25 * tall)
         if tall > 60:
             # Furniture stands nearly exactly, since other things are placed on it.
             slip /= 4
         self.put(name, what, (at[0], at[1], at[2] + slip), turn, scale)
 
     def _refer(self, path: str, asset: Asset) -> Any:
-        stage, source = self.shop.stage, f"{ASSETS}/{asset.name}"
-        if not stage.GetPrimAtPath(source):
-            stage.CreateClassPrim(ASSETS)
-            UsdGeom.Xform.Define(stage, source)
-            _define_all(stage, source, asset.parts)
-        prim = UsdGeom.Xform.Define(stage, path).GetPrim()
-        prim.GetReferences().AddInternalReference(source)
-        prim.SetInstanceable(True)
-        return prim
+        stage = self.shop.stage
+        source = Sdf.Path(f"{ASSETS}/{asset.name}")
+        return write_instance(stage, path, source, lambda path: _define_all(stage, str(path), asset.parts))
 
 
 Op = tuple[str, str, Any]
@@ -150,7 +142,7 @@ def _define(stage: Any, path: str, part: Part, ops: list[Op]) -> tuple[Any, list
     if isinstance(part, Scatter):
         return _define_instancer(stage, path, part), ops
     if isinstance(part, Mesh):
-        return _define_mesh(stage, path, part), ops
+        return write_mesh(stage, path, part.points, part.faces).GetPrim(), ops
     gprim = getattr(UsdGeom, part.kind).Define(stage, path)
     own: list[Op] = [("translate", "part", Gf.Vec3d(*part.centre))]
     if part.kind == "Cube":
@@ -167,17 +159,6 @@ def _define(stage: Any, path: str, part: Part, ops: list[Op]) -> tuple[Any, list
             turn = Gf.Rotation(Gf.Vec3d(0, 0, 1), Gf.Vec3d(*part.way)).GetQuat()
             own.append(("orient", "part", Gf.Quatf(turn)))
     return gprim.GetPrim(), [*ops, *own]
-
-
-def _define_mesh(stage: Any, path: str, part: Mesh) -> Any:
-    mesh = UsdGeom.Mesh.Define(stage, path)
-    mesh.CreatePointsAttr(part.points.astype(np.float32))
-    mesh.CreateFaceVertexCountsAttr([len(face) for face in part.faces])
-    mesh.CreateFaceVertexIndicesAttr(np.concatenate(part.faces).astype(np.int32))
-    mesh.CreateSubdivisionSchemeAttr(UsdGeom.Tokens.none)
-    mesh.CreateDoubleSidedAttr(True)
-    mesh.CreateExtentAttr(UsdGeom.PointBased.ComputeExtent(mesh.GetPointsAttr().Get()))
-    return mesh.GetPrim()
 
 
 def _define_instancer(stage: Any, path: str, part: Scatter) -> Any:

@@ -1,15 +1,15 @@
 """Collect groups and objects, and write them as a stage: Y up, centimetres, as Maya does."""
 
-import hashlib
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import partial
 from pathlib import Path
 from typing import Any
 
-import numpy as np
-from pxr import Gf, Kind, Sdf, Usd, UsdGeom
+from pxr import Kind, Sdf, Usd, UsdGeom
 
 from benchmarks.scenes.hotel.shapes import Part, resized
+from benchmarks.scenes.prims import draw, write_instance, write_mesh, write_transform, write_unit_gprim
 
 __all__ = ["Group", "Hotel", "write"]
 
@@ -80,17 +80,13 @@ class Group:
             scale /= self.unit
         elif self.unit != 1:
             known = tuple(resized(part, 1 / self.unit) for part in known)
-        error = 0.0 if fixed else _error(path)
+        error = 0.0 if fixed else draw(path, ERRORS)
         place = _divided((at[0], at[1] + error, at[2]), self.unit)
         self.hotel.objects[path] = _Placed(known, place, tuple(rot), scale, asset)
 
 
 def _divided(values: Vec, unit: float) -> Vec:
     return tuple(value / unit for value in values)
-
-
-def _error(path: str) -> float:
-    return ERRORS[hashlib.sha256(path.encode()).digest()[0] % len(ERRORS)]
 
 
 def write(hotel: Hotel, out: Path) -> None:
@@ -104,18 +100,18 @@ def write(hotel: Hotel, out: Path) -> None:
     for path, (at, rot, unit) in hotel.groups.items():
         xform = UsdGeom.Xform.Define(stage, f"{ROOT}/{path}")
         Usd.ModelAPI(xform.GetPrim()).SetKind(Kind.Tokens.group)
-        _place(xform, at, rot, (unit,) * 3)
+        write_transform(xform, at, rot, (unit,) * 3)
     for path, placed in hotel.objects.items():
         prim_path = Sdf.Path(f"{ROOT}/{path}")
         if placed.asset:
-            prim = _instance(stage, prim_path, placed)
+            prototype = PROTOTYPES.AppendChild(placed.asset)
+            prim = write_instance(stage, prim_path, prototype, partial(_geometry, stage, parts=placed.parts))
         elif len(placed.parts) == 1 and _is_plain_mesh(placed.parts[0]):
             prim = _gprim(stage, prim_path, placed.parts[0], pose=False)
-            _place(UsdGeom.Xformable(prim), placed.at, placed.rot, (placed.scale,) * 3)
         else:
             prim = UsdGeom.Xform.Define(stage, prim_path).GetPrim()
-            _place(UsdGeom.Xformable(prim), placed.at, placed.rot, (placed.scale,) * 3)
             _geometry(stage, prim_path, placed.parts)
+        write_transform(UsdGeom.Xformable(prim), placed.at, placed.rot, (placed.scale,) * 3)
         Usd.ModelAPI(prim).SetKind(Kind.Tokens.component)
     stage.GetRootLayer().Export(str(out))
 
@@ -124,51 +120,16 @@ def _is_plain_mesh(part: Part) -> bool:
     return part.kind == "Mesh" and not any((*part.at, *part.rot))
 
 
-def _instance(stage: Any, path: Sdf.Path, placed: _Placed) -> Any:
-    prototype = PROTOTYPES.AppendChild(placed.asset)
-    if not stage.GetPrimAtPath(prototype):
-        stage.CreateClassPrim(PROTOTYPES)
-        UsdGeom.Xform.Define(stage, prototype)
-        _geometry(stage, prototype, placed.parts)
-    xform = UsdGeom.Xform.Define(stage, path)
-    _place(xform, placed.at, placed.rot, (placed.scale,) * 3)
-    xform.GetPrim().GetReferences().AddInternalReference(prototype)
-    xform.GetPrim().SetInstanceable(True)
-    return xform.GetPrim()
-
-
-def _geometry(stage: Any, path: Sdf.Path, parts: Sequence[Part]) -> None:
+def _geometry(stage: Usd.Stage, path: Sdf.Path, parts: Sequence[Part]) -> None:
     for index, part in enumerate(parts):
         _gprim(stage, path.AppendChild(f"{part.kind.lower()}_{index + 1}"), part, pose=True)
 
 
-def _gprim(stage: Any, path: Sdf.Path, part: Part, *, pose: bool) -> Any:
+def _gprim(stage: Usd.Stage, path: Sdf.Path, part: Part, *, pose: bool) -> Any:
     if part.kind == "Mesh":
-        gprim = UsdGeom.Mesh.Define(stage, path)
-        gprim.CreatePointsAttr(part.points.astype(np.float32))
-        gprim.CreateFaceVertexCountsAttr([len(face) for face in part.faces])
-        gprim.CreateFaceVertexIndicesAttr([index for face in part.faces for index in face])
-        gprim.CreateSubdivisionSchemeAttr(UsdGeom.Tokens.none)
-        gprim.CreateDoubleSidedAttr(True)
-        gprim.CreateExtentAttr(UsdGeom.PointBased.ComputeExtent(gprim.GetPointsAttr().Get()))
+        gprim = write_mesh(stage, path, part.points, part.faces)
     else:
-        gprim = getattr(UsdGeom, part.kind).Define(stage, path)
-        if part.kind == "Cube":
-            gprim.CreateSizeAttr(1.0)
-        else:
-            gprim.CreateRadiusAttr(0.5)
-        if part.kind in {"Cylinder", "Cone"}:
-            gprim.CreateHeightAttr(1.0)
-            gprim.CreateAxisAttr(UsdGeom.Tokens.y)
+        gprim = write_unit_gprim(stage, path, part.kind, UsdGeom.Tokens.y)
     if pose:
-        _place(gprim, part.at, part.rot, part.size)
+        write_transform(gprim, part.at, part.rot, part.size)
     return gprim.GetPrim()
-
-
-def _place(xform: Any, at: Vec, rot: Vec, scale: Vec) -> None:
-    if any(at):
-        xform.AddTranslateOp().Set(Gf.Vec3d(*map(float, at)))
-    if any(rot):
-        xform.AddRotateXYZOp().Set(Gf.Vec3f(*map(float, rot)))
-    if any(value != 1.0 for value in scale):
-        xform.AddScaleOp().Set(Gf.Vec3f(*map(float, scale)))

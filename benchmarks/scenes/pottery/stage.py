@@ -7,6 +7,7 @@ from typing import NamedTuple
 from pxr import Gf, Kind, Sdf, Usd, UsdGeom, Vt
 
 from benchmarks.scenes.pottery.shapes import Mesh
+from benchmarks.scenes.prims import write_instance
 
 __all__ = ["Group", "Part", "Pottery", "Shape", "shape"]
 
@@ -124,15 +125,10 @@ class Pottery:
 
     def _refer(self, path: str, what: Shape) -> UsdGeom.Xform:
         """Return an instance of an asset, which is written once as a class."""
-        source = f"/_assets/{what.asset}"
-        if not self.stage.GetPrimAtPath(source):
-            self.stage.CreateClassPrim("/_assets")
-            UsdGeom.Xform.Define(self.stage, source)
-            self._write_parts(source, what, 1)
-        xform = UsdGeom.Xform.Define(self.stage, path)
-        xform.GetPrim().GetReferences().AddInternalReference(Sdf.Path(source))
-        xform.GetPrim().SetInstanceable(True)
-        return xform
+        source = Sdf.Path(f"/_assets/{what.asset}")
+        return UsdGeom.Xform(
+            write_instance(self.stage, path, source, lambda path: self._write_parts(str(path), what, 1))
+        )
 
     def _write_parts(self, path: str, what: Shape, unit: float) -> None:
         for number, part in enumerate(what.parts, 1):

@@ -1,6 +1,5 @@
 """Place assets in the salon and write them as a stage: Y up, centimetres, as many editors write."""
 
-import hashlib
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -10,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 from pxr import Gf, Kind, Sdf, Usd, UsdGeom
 
+from benchmarks.scenes.prims import draw, write_mesh
 from benchmarks.scenes.salon.contact import Solid, lift_onto, solid
 from benchmarks.scenes.salon.shapes import Shape, turn
 from benchmarks.scenes.sweet_home import Library
@@ -106,14 +106,9 @@ class Salon:
         except ValueError as error:
             raise ValueError(f"{path}: {error}") from error
         height = float(np.ptp(placed.solid.points[:, 2]))
-        lift += float(np.clip(_error(path), -0.3 * height, 0.009))
+        lift += float(np.clip(draw(path, ERRORS), -0.3 * height, 0.009))
         placed.matrix[2, 3] += lift
         placed.solid = placed.solid._replace(points=placed.solid.points + np.array([0, 0, lift]))
-
-
-def _error(path: str) -> float:
-    digest = hashlib.sha256(path.encode()).digest()
-    return ERRORS[digest[0] % len(ERRORS)]
 
 
 def write(salon: Salon, out: Path) -> None:
@@ -178,11 +173,5 @@ def _write_file(asset: Asset, folder: Path) -> None:
 
 def _write_mesh(xform: Any, asset: Asset) -> None:
     frame = _own_frame(asset)
-    points = (asset.shape.points @ frame[:3, :3].T).astype(np.float32)
-    mesh = UsdGeom.Mesh.Define(xform.GetPrim().GetStage(), xform.GetPath().AppendChild(MESH))
-    mesh.CreatePointsAttr(points)
-    mesh.CreateFaceVertexCountsAttr([len(face) for face in asset.shape.faces])
-    mesh.CreateFaceVertexIndicesAttr(np.concatenate(asset.shape.faces).astype(np.int32))
-    mesh.CreateSubdivisionSchemeAttr(UsdGeom.Tokens.none)
-    mesh.CreateDoubleSidedAttr(True)
-    mesh.CreateExtentAttr(UsdGeom.PointBased.ComputeExtent(mesh.GetPointsAttr().Get()))
+    path = xform.GetPath().AppendChild(MESH)
+    write_mesh(xform.GetPrim().GetStage(), path, asset.shape.points @ frame[:3, :3].T, asset.shape.faces)

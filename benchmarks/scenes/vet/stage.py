@@ -1,14 +1,14 @@
 """Collect groups and objects, and write them as a stage: Z up, millimetres, as a CAD export does."""
 
-import hashlib
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import partial
 from pathlib import Path
 from typing import Any
 
-import numpy as np
 from pxr import Gf, Kind, Sdf, Usd, UsdGeom
 
+from benchmarks.scenes.prims import draw, write_instance, write_mesh, write_transform, write_unit_gprim
 from benchmarks.scenes.vet.shapes import Part
 
 __all__ = ["ROOT", "Group", "Practice", "write"]
@@ -74,7 +74,7 @@ class Group:
         known = (parts,) if isinstance(parts, Part) else tuple(parts)
         if block:
             known = self.practice.blocks.setdefault(block, known)
-        error = 0.0 if fixed else ERRORS[hashlib.sha256(path.encode()).digest()[0] % len(ERRORS)]
+        error = 0.0 if fixed else draw(path, ERRORS)
         self.practice.objects[path] = _Placed(known, (at[0], at[1], at[2] + error), tuple(rot), scale, block)
 
 
@@ -89,64 +89,30 @@ def write(practice: Practice, out: Path) -> None:
     for path, (at, yaw, scale) in practice.groups.items():
         xform = UsdGeom.Xform.Define(stage, f"{ROOT}/{path}")
         Usd.ModelAPI(xform.GetPrim()).SetKind(Kind.Tokens.group)
-        _place(xform, at, (0, 0, yaw), scale)
+        write_transform(xform, at, (0, 0, yaw), (scale,) * 3)
     for path, placed in practice.objects.items():
         prim_path = Sdf.Path(f"{ROOT}/{path}")
         if placed.block:
-            prim = _instance(stage, prim_path, placed)
+            prototype = BLOCKS.AppendChild(placed.block)
+            prim = write_instance(stage, prim_path, prototype, partial(_geometry, stage, parts=placed.parts))
         elif len(placed.parts) == 1 and placed.parts[0].kind == "Mesh":
             prim = _gprim(stage, prim_path, placed.parts[0])
         else:
             prim = UsdGeom.Xform.Define(stage, prim_path).GetPrim()
             _geometry(stage, prim_path, placed.parts)
-        _place(UsdGeom.Xformable(prim), placed.at, placed.rot, placed.scale)
+        write_transform(UsdGeom.Xformable(prim), placed.at, placed.rot, (placed.scale,) * 3)
         Usd.ModelAPI(prim).SetKind(Kind.Tokens.component)
     stage.GetRootLayer().Export(str(out))
 
 
-def _instance(stage: Any, path: Sdf.Path, placed: _Placed) -> Any:
-    prototype = BLOCKS.AppendChild(placed.block)
-    if not stage.GetPrimAtPath(prototype):
-        stage.CreateClassPrim(BLOCKS)
-        UsdGeom.Xform.Define(stage, prototype)
-        _geometry(stage, prototype, placed.parts)
-    prim = UsdGeom.Xform.Define(stage, path).GetPrim()
-    prim.GetReferences().AddInternalReference(prototype)
-    prim.SetInstanceable(True)
-    return prim
-
-
-def _geometry(stage: Any, path: Sdf.Path, parts: Sequence[Part]) -> None:
+def _geometry(stage: Usd.Stage, path: Sdf.Path, parts: Sequence[Part]) -> None:
     for index, part in enumerate(parts):
         _gprim(stage, path.AppendChild(f"Body{index + 1}"), part)
 
 
-def _gprim(stage: Any, path: Sdf.Path, part: Part) -> Any:
+def _gprim(stage: Usd.Stage, path: Sdf.Path, part: Part) -> Any:
     if part.kind == "Mesh":
-        gprim = UsdGeom.Mesh.Define(stage, path)
-        gprim.CreatePointsAttr(part.points.astype(np.float32))
-        gprim.CreateFaceVertexCountsAttr([len(face) for face in part.faces])
-        gprim.CreateFaceVertexIndicesAttr([index for face in part.faces for index in face])
-        gprim.CreateSubdivisionSchemeAttr(UsdGeom.Tokens.none)
-        gprim.CreateDoubleSidedAttr(True)
-        gprim.CreateExtentAttr(UsdGeom.PointBased.ComputeExtent(gprim.GetPointsAttr().Get()))
-        return gprim.GetPrim()
-    gprim = getattr(UsdGeom, part.kind).Define(stage, path)
-    if part.kind == "Cube":
-        gprim.CreateSizeAttr(1.0)
-    else:
-        gprim.CreateRadiusAttr(0.5)
-    if part.kind == "Cylinder":
-        gprim.CreateHeightAttr(1.0)
-        gprim.CreateAxisAttr(UsdGeom.Tokens.z)
+        return write_mesh(stage, path, part.points, part.faces).GetPrim()
+    gprim = write_unit_gprim(stage, path, part.kind, UsdGeom.Tokens.z)
     gprim.AddTransformOp().Set(Gf.Matrix4d(part.matrix.tolist()))
     return gprim.GetPrim()
-
-
-def _place(xform: Any, at: Vec, rot: Vec, scale: float) -> None:
-    if any(at):
-        xform.AddTranslateOp().Set(Gf.Vec3d(*map(float, at)))
-    if any(rot):
-        xform.AddRotateXYZOp().Set(Gf.Vec3f(*map(float, rot)))
-    if scale != 1.0:
-        xform.AddScaleOp().Set(Gf.Vec3f(scale, scale, scale))
