@@ -6,13 +6,14 @@ import pytest
 from pxr import Kind, Usd
 
 from benchmarks.relations.judged import KINDS, SCENES, read_judged
+from benchmarks.scenes.bakery import build as bakery
 from benchmarks.scenes.bicycle_shop import build as bicycle_shop
 from benchmarks.scenes.command import run_command
 from benchmarks.scenes.hotel import build as hotel
 from benchmarks.scenes.pottery import build as pottery
 from benchmarks.scenes.vet import build as vet
 
-SCRIPTS = {"bicycle_shop": bicycle_shop, "pottery": pottery, "hotel": hotel, "vet": vet}
+SCRIPTS = {"bicycle_shop": bicycle_shop, "pottery": pottery, "hotel": hotel, "vet": vet, "bakery": bakery}
 
 
 @pytest.mark.parametrize("script", SCRIPTS.values(), ids=SCRIPTS)

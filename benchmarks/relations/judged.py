@@ -40,6 +40,8 @@ class Sources(NamedTuple):
     judged: tuple[Path, ...]
     remedy: str = "set USD2KG_SHARED"
     """What provides the stage where it is missing."""
+    is_test: bool = False
+    """Whether it is only scored: its errors are not read, so that its figures stay a test."""
 
 
 SCENES = {
@@ -70,6 +72,7 @@ SCENES = {
     "pottery": Sources(ROOT / "benchmarks/scenes/pottery/pottery.usdc", (HERE / "judged/pottery.csv",)),
     "hotel": Sources(ROOT / "benchmarks/scenes/hotel/hotel.usdc", (HERE / "judged/hotel.csv",)),
     "vet": Sources(ROOT / "benchmarks/scenes/vet/vet.usdc", (HERE / "judged/vet.csv",)),
+    "bakery": Sources(ROOT / "benchmarks/scenes/bakery/bakery.usdc", (HERE / "judged/bakery.csv",), is_test=True),
 }
 
 
@@ -201,7 +204,10 @@ def main(names: list[str]) -> None:
         facts = [fact for path in source.judged for fact in read_judged(path)]
         tallies = compare(facts, usd2kg.build(source.stage).graph.relations)
         rows += table(name, tallies)
-        errors_and_notes += [f"{name}: {line}" for line in errors(tallies)]
+        if source.is_test:
+            errors_and_notes.append(f"{name} is a test: its errors are not listed")
+        else:
+            errors_and_notes += [f"{name}: {line}" for line in errors(tallies)]
     print("\n".join([*rows, "", *errors_and_notes]))
 
 

@@ -68,6 +68,7 @@ FLOORS = {
     },
     "salon": {"on": (0.97, 0.95), "inside": (0.97, 0.95), "part-of": (0.97, 0.95), "attached-to": (0.97, 0.95)},
     "vet": {"on": (0.93, 0.95), "inside": (0.97, 0.95), "part-of": (0.93, 0.75), "attached-to": (0.92, 0.9)},
+    "bakery": {"on": (0.97, 0.95), "inside": (0.97, 0.95), "part-of": (0.95, 0.93), "attached-to": (0.97, 0.95)},
     **dict.fromkeys(
         ("garage", "bicycle_shop", "pottery", "hotel"),
         dict.fromkeys(("on", "inside", "part-of", "attached-to"), (0.97, 0.95)),
