@@ -1,11 +1,12 @@
-"""Time the whole pipeline from file to graph on furnished flats and a warehouse, and its growth with scene size.
+"""Time the whole pipeline from file to graph on furnished flats, a warehouse and a twin, and how it grows with size.
 
-Usage: python -m benchmarks.scale.run [--places flats warehouse] [--profiles soma plain] [OBJECTS...]
+Usage: python -m benchmarks.scale.run [OBJECTS...] [--places flats warehouse twin] [--profiles soma plain]
 
-The default is 1000, 10000 and 100000 objects of five prims each. Each run has its own process, for its peak memory.
-Seconds are processor time, which other load affects little; wall time is in brackets. "Ours / its own" compares writing
-Turtle with pyoxigraph's serialiser on the same triples, alternately. The exponent is the slope of log seconds over log
-objects: 1 is linear.
+The default is 1000, 10000 and 100000 objects of four to five prims each. Each run has its own process, for its peak
+memory. Seconds are wall time, since some steps use two processes; processor time, without that of forked processes, is
+in brackets. The floor is the wall time to open and traverse the stage with OpenUSD alone, in its own process. "Ours /
+its own" compares writing Turtle with pyoxigraph's serialiser on the same triples, alternately. The exponent is the
+slope of log seconds over log objects: 1 is linear.
 """
 
 import argparse
@@ -22,6 +23,8 @@ from typing import Any
 
 from benchmarks.scale.places import PLACES
 
+TWIN = "twin"
+"""Instances of one prototype whose names say nothing."""
 STEPS = ("read", "ground", "relations", "instantiate", "write", "total")
 TURNS = 3
 
@@ -80,6 +83,16 @@ def measure(stage: Path, profile: str) -> dict[str, Any]:
     }
 
 
+def measure_floor(stage: Path) -> dict[str, float]:
+    """Return the wall time to open a stage and traverse its prims, with those of instances, by OpenUSD alone."""
+    start = time.perf_counter()
+    from pxr import Usd  # noqa: PLC0415 - counts
+
+    opened = Usd.Stage.Open(str(stage))
+    prims = sum(1 for _ in opened.Traverse(Usd.TraverseInstanceProxies()))
+    return {"seconds": time.perf_counter() - start, "prims": prims}
+
+
 def serialiser_ratio(graph: Any, target: Path) -> float:
     """Return the ratio of our serialisation time to that of pyoxigraph on the same triples."""
     import pyoxigraph as ox  # noqa: PLC0415
@@ -104,9 +117,9 @@ def exponent(sizes: list[int], seconds: list[float]) -> float:
     return sum((a - middle_x) * (b - middle_y) for a, b in zip(x, y, strict=True)) / spread
 
 
-def run_child(stage: Path, profile: str) -> dict[str, Any]:
-    """Return the result of `measure` in a separate process."""
-    command = [sys.executable, "-m", "benchmarks.scale.run", "--measure", str(stage), "--profiles", profile]
+def run_child(*arguments: str) -> dict[str, Any]:
+    """Return what this program measures in a separate process."""
+    command = [sys.executable, "-m", "benchmarks.scale.run", *arguments]
     found = subprocess.run(command, check=True, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True)
     measured: dict[str, Any] = json.loads(found.stdout)
     return measured
@@ -114,49 +127,62 @@ def run_child(stage: Path, profile: str) -> dict[str, Any]:
 
 def print_row(place: str, profile: str, objects: int, measured: dict[str, Any]) -> None:
     """Print one run as a table row."""
-    steps = " | ".join(f"{measured['cpu'][step]:.2f} ({measured['wall'][step]:.2f})" for step in STEPS)
-    size = f"{objects:,} | {measured['prims']:,} | {measured['triples']:,}"
+    steps = " | ".join(f"{measured['wall'][step]:.2f} ({measured['cpu'][step]:.2f})" for step in STEPS)
+    size = f"{objects:,} | {measured['prims']:,} | {measured['triples']:,} | {measured['floor']:.2f}"
     print(f"| {place} | {profile} | {size} | {steps} | {measured['peak']:.2f} | {measured['ratio']:.2f} |", flush=True)
 
 
 def print_exponents(place: str, profile: str, sizes: list[int], runs: list[dict[str, Any]]) -> None:
     """Print the growth of each step with the number of objects."""
-    slopes = " | ".join(f"{exponent(sizes, [run['cpu'][step] for run in runs]):.2f}" for step in STEPS)
-    memory = exponent(sizes, [run["peak"] for run in runs])
-    print(f"| {place} | {profile} | exponent | | | {slopes} | {memory:.2f} | |", flush=True)
+    slopes = " | ".join(f"{exponent(sizes, [run['wall'][step] for run in runs]):.2f}" for step in STEPS)
+    floor, memory = (exponent(sizes, [run[key] for run in runs]) for key in ("floor", "peak"))
+    print(f"| {place} | {profile} | exponent | | | {floor:.2f} | {slopes} | {memory:.2f} | |", flush=True)
 
 
 def compare(places: list[str], profiles: list[str], sizes: list[int]) -> None:
     """Write the stages, measure each with all profiles, and print a table."""
-    print(
-        "| place | profile | objects | prims | triples | " + ", s | ".join(STEPS) + ", s | peak GB | ours / its own |"
-    )
-    print("|" + " --- |" * (7 + len(STEPS)))
-    from benchmarks.scale.stage import write_place  # noqa: PLC0415 - opens OpenUSD, which the child processes measure
-
+    steps = " | ".join(f"{step}, s" for step in STEPS)
+    print(f"| place | profile | objects | prims | triples | floor, s | {steps} | peak GB | ours / its own |")
+    print("|" + " --- |" * (8 + len(STEPS)))
     with tempfile.TemporaryDirectory() as folder:
         for place in places:
             stages = {size: Path(folder) / f"{place}_{size}.usdc" for size in sizes}
             for size, stage in stages.items():
-                write_place(stage, place, size)
+                write_stage(stage, place, size)
             for profile in profiles:
                 runs = []
                 for size, stage in stages.items():
-                    runs.append(run_child(stage, profile))
+                    measured = run_child("--measure", str(stage), "--profiles", profile)
+                    runs.append({**measured, "floor": run_child("--floor", str(stage))["seconds"]})
                     print_row(place, profile, size, runs[-1])
                 if len(sizes) > 1:
                     print_exponents(place, profile, sizes, runs)
+
+
+def write_stage(stage: Path, place: str, size: int) -> None:
+    """Write a place with about `size` objects."""
+    # Imported here, since they open OpenUSD, which the child processes measure.
+    from benchmarks.reading.run import PRIMS_PER_OBJECT, make_stage  # noqa: PLC0415
+    from benchmarks.scale.stage import write_place  # noqa: PLC0415
+
+    if place == TWIN:
+        make_stage(stage, PRIMS_PER_OBJECT * size, instanced=True)
+    else:
+        write_place(stage, place, size)
 
 
 def main() -> None:
     """Measure and print."""
     parser = argparse.ArgumentParser(description="Time the whole chain, from a file to a graph.")
     parser.add_argument("objects", nargs="*", type=int, default=[1_000, 10_000, 100_000])
-    parser.add_argument("--places", nargs="+", choices=PLACES, default=list(PLACES))
+    parser.add_argument("--places", nargs="+", choices=(*PLACES, TWIN), default=[*PLACES, TWIN])
     parser.add_argument("--profiles", nargs="+", choices=("soma", "plain"), default=["soma", "plain"])
     parser.add_argument("--measure", type=Path, help="Measure one stage and print figures as JSON.")
+    parser.add_argument("--floor", type=Path, help="Open and traverse one stage and print figures as JSON.")
     arguments = parser.parse_args()
-    if arguments.measure is not None:
+    if arguments.floor is not None:
+        print(json.dumps(measure_floor(arguments.floor)))
+    elif arguments.measure is not None:
         print(json.dumps(measure(arguments.measure, arguments.profiles[0])))
     else:
         compare(arguments.places, arguments.profiles, arguments.objects)

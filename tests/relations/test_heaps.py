@@ -1,6 +1,7 @@
 """Dense heaps: the time grows with the number of objects, and the pairs are those of a plain search."""
 
 import time
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -8,6 +9,7 @@ import pytest
 from benchmarks.relations.run import make_scene
 from tests.relations.room_builder import home
 from usd2kg.relations import above_below, find_relations
+from usd2kg.scene import Box
 from usd2kg.shapes import overlapping_pairs
 
 SECONDS = 10.0
@@ -21,8 +23,13 @@ def test_a_tower_is_not_quadratic():
     assert time.process_time() - start < SECONDS
 
 
-def test_a_heap_has_the_relations_that_all_pairs_have(monkeypatch: pytest.MonkeyPatch):
+@pytest.mark.parametrize("depth", [0.0, 60.0])
+def test_a_heap_has_the_relations_that_all_pairs_have(depth: float, monkeypatch: pytest.MonkeyPatch):
     scene, grounding = make_scene(900, home(), "tower")
+    # Far below it there is a floor, to which most of the heap has nothing in between but the heap.
+    floor = Box((-1, -1, -depth - 0.1), (2, 2, -depth))
+    first = replace(scene.objects[0], box=floor, own_box=floor)
+    scene = replace(scene, objects=(first, *scene.objects[1:]))
     monkeypatch.setattr(above_below, "_MAX_PAIRS", 0)
     layer_by_layer = find_relations(scene, home(), grounding)
     monkeypatch.setattr(above_below, "_MAX_PAIRS", 10**9)

@@ -6,6 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from usd2kg.relations.array_records import (
+    are_reached,
     concatenate_rows,
     first_of_each_group,
     rank_in_group,
@@ -26,8 +27,8 @@ Mask = NDArray[np.bool_]
 
 _MAX_PAIRS = 64
 """Pairs per object in one column above which they are found layer by layer; affects speed only."""
-_FIRST_REACH = 0.25
-"""Metres below an object that are searched first in a heap; affects speed only."""
+_LAYER = 0.25
+"""Thickness in metres of the first layer below an object that is searched in a heap; affects speed only."""
 _PREFIX = 4
 """Candidate anchors tested per anchor kept; intermediate objects are among the nearest candidates."""
 
@@ -74,72 +75,80 @@ def _candidates(
     boxed: BoxedObjects, chosen: Indices, frame: Indices, supporter: Indices, rule: AboveRule
 ) -> _StackedPairs | None:
     """Return the pairs of which one object is above the other; None for a heap, with too many in one column."""
-    found = [_StackedPairs(np.zeros(0, np.int64), np.zeros(0, np.int64), np.zeros(0), np.zeros(0))]
+    found = [_no_pairs()]
     count = 0
     for i, j in overlapping_pairs(boxed.lower[chosen, :2], boxed.upper[chosen, :2]):
         count += len(i)
         if count > _MAX_PAIRS * len(chosen):
             return None
         one, other = chosen[i], chosen[j]
-        is_upper = boxed.lower[one, 2] >= boxed.upper[other, 2] + rule.min_gap
-        is_lower = boxed.lower[other, 2] >= boxed.upper[one, 2] + rule.min_gap
+        is_upper, is_lower = _are_higher(boxed, one, other, rule), _are_higher(boxed, other, one, rule)
         # Neither of two flat objects at the same height is above the other.
         is_good = (is_upper != is_lower) & (frame[one] == frame[other])
         target, anchor = np.where(is_upper, one, other)[is_good], np.where(is_upper, other, one)[is_good]
-        gap, ratio = boxed.lower[target, 2] - boxed.upper[anchor, 2], _overlap_ratio(boxed, target, anchor)
-        found.append(select_rows(_StackedPairs(target, anchor, gap, ratio), ratio > rule.min_overlap_ratio))
+        found.append(_overlapping(boxed, target, anchor, rule))
     pairs = concatenate_rows(found)
-    return select_rows(pairs, ~_is_supported(pairs, supporter))
+    return select_rows(pairs, ~are_reached(pairs.anchor, pairs.target, supporter))
 
 
 def _candidates_in_heap(
     boxed: BoxedObjects, chosen: Indices, frame: Indices, supporter: Indices, rule: AboveRule
 ) -> _StackedPairs:
-    """Return at least the nearest pairs of each target, which are looked for farther and farther below it."""
-    left, reach = chosen, _FIRST_REACH
+    """Return at least the nearest pairs of each target, which are looked for layer by layer below it.
+
+    A layer is thin, so that few boxes of the heap are in it, and twice as thick as the one before if that was empty.
+    """
     bottom, top = boxed.lower[chosen].copy(), boxed.upper[chosen].copy()
     bottom[:, 2] = top[:, 2]
-    deepest = float(np.ptp(boxed.lower[chosen, 2])) + float(boxed.size[chosen, 2].max())
-    kept = []
+    lowest = top[:, 2].min()
+    # The gaps searched so far, and those of the next layer.
+    searched, thickness = np.full(len(boxed), -np.inf), np.full(len(boxed), _LAYER)
+    count = np.zeros(len(boxed), np.int64)
+    left, kept = chosen, []
     while len(left):
+        near = np.maximum(searched[left], rule.min_gap)
+        far = near + thickness[left]
         lower, upper = boxed.lower[left].copy(), boxed.upper[left].copy()
-        # A quarter of the reach more, so that rounding loses no pair.
-        upper[:, 2] = lower[:, 2] - rule.min_gap + reach / 4
-        lower[:, 2] -= reach
-        found = [_StackedPairs(np.zeros(0, np.int64), np.zeros(0, np.int64), np.zeros(0), np.zeros(0))]
+        # A quarter of the layer more, so that rounding loses no pair.
+        upper[:, 2] = lower[:, 2] - near + thickness[left] / 4
+        lower[:, 2] -= far + thickness[left] / 4
+        found = [_no_pairs()]
         for i, j in overlapping_pairs(lower, upper, (bottom, top)):
             target, anchor = left[i], chosen[j]
             gap = boxed.lower[target, 2] - boxed.upper[anchor, 2]
-            is_upper = boxed.lower[target, 2] >= boxed.upper[anchor, 2] + rule.min_gap
-            is_lower = boxed.lower[anchor, 2] >= boxed.upper[target, 2] + rule.min_gap
-            is_good = is_upper & ~is_lower & (frame[target] == frame[anchor]) & (target != anchor)
-            target, anchor, gap = target[is_good], anchor[is_good], gap[is_good]
-            ratio = _overlap_ratio(boxed, target, anchor)
-            found.append(select_rows(_StackedPairs(target, anchor, gap, ratio), ratio > rule.min_overlap_ratio))
+            is_new = (gap > searched[target]) & (gap <= far[i]) & (frame[target] == frame[anchor]) & (target != anchor)
+            is_good = is_new & _are_higher(boxed, target, anchor, rule) & ~_are_higher(boxed, anchor, target, rule)
+            found.append(_overlapping(boxed, target[is_good], anchor[is_good], rule))
         pairs = concatenate_rows(found)
-        pairs = select_rows(pairs, ~_is_supported(pairs, supporter))
-        is_done = np.bincount(pairs.target, minlength=len(boxed)) >= _PREFIX * rule.most
-        is_done |= reach > deepest
-        kept.append(select_rows(pairs, is_done[pairs.target]))
-        left, reach = left[~is_done[left]], 2 * reach
+        pairs = select_rows(pairs, ~are_reached(pairs.anchor, pairs.target, supporter))
+        kept.append(pairs)
+        new = np.bincount(pairs.target, minlength=len(boxed))
+        count += new
+        searched[left] = far
+        thickness[new == 0] *= 2
+        is_done = (count >= _PREFIX * rule.most) | (boxed.lower[:, 2] - searched < lowest)
+        left = left[~is_done[left]]
     return concatenate_rows(kept)
+
+
+def _no_pairs() -> _StackedPairs:
+    return _StackedPairs(np.zeros(0, np.int64), np.zeros(0, np.int64), np.zeros(0), np.zeros(0))
+
+
+def _are_higher(boxed: BoxedObjects, one: Indices, other: Indices, rule: AboveRule) -> Mask:
+    return np.asarray(boxed.lower[one, 2] >= boxed.upper[other, 2] + rule.min_gap)
+
+
+def _overlapping(boxed: BoxedObjects, target: Indices, anchor: Indices, rule: AboveRule) -> _StackedPairs:
+    """Return the pairs whose footprints overlap enough."""
+    gap, ratio = boxed.lower[target, 2] - boxed.upper[anchor, 2], _overlap_ratio(boxed, target, anchor)
+    return select_rows(_StackedPairs(target, anchor, gap, ratio), ratio > rule.min_overlap_ratio)
 
 
 def _overlap_ratio(boxed: BoxedObjects, one: Indices, other: Indices) -> Array:
     shared = overlap_areas(boxed.lower[one], boxed.upper[one], boxed.lower[other], boxed.upper[other])
     smaller = np.minimum(boxed.area[one], boxed.area[other])
     return np.asarray(np.minimum(ratios(shared, smaller), 1.0))
-
-
-def _is_supported(pairs: _StackedPairs, supporter: Indices) -> Mask:
-    """Return for each pair whether the target is on the anchor, directly or transitively."""
-    here, found = supporter[pairs.target], np.zeros(len(pairs.target), np.bool_)
-    for _ in range(len(supporter)):
-        found |= here == pairs.anchor
-        if not (here >= 0).any():
-            break
-        here = np.where(here >= 0, supporter[here], -1)
-    return found
 
 
 def _nearest(boxed: BoxedObjects, pairs: _StackedPairs, most: int) -> _StackedPairs:
@@ -164,6 +173,6 @@ def _has_intermediate(boxed: BoxedObjects, pairs: _StackedPairs, supporter: Indi
 
 
 def _is_over(boxed: BoxedObjects, upper: Indices, lower: Indices, supporter: Indices, rule: AboveRule) -> Mask:
-    is_higher = boxed.lower[upper, 2] >= boxed.upper[lower, 2] + rule.min_gap
-    is_above = is_higher & (_overlap_ratio(boxed, upper, lower) > rule.min_overlap_ratio) & (upper != lower)
+    overlaps = _overlap_ratio(boxed, upper, lower) > rule.min_overlap_ratio
+    is_above = _are_higher(boxed, upper, lower, rule) & overlaps & (upper != lower)
     return np.asarray(is_above | (supporter[upper] == lower))

@@ -6,6 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 __all__ = [
+    "are_reached",
     "concatenate_rows",
     "first_of_each_group",
     "is_on_cycle",
@@ -85,6 +86,38 @@ def is_on_cycle(after: Indices, starts: Indices) -> Mask:
         on_cycle[reached] = True
         reached = here[reached]
     return np.asarray(on_cycle[starts])
+
+
+def are_reached(goals: Indices, starts: Indices, after: Indices) -> Mask:
+    """Return for each goal whether following `after` (-1 ends a chain) from its start leads to it, in one step or more.
+
+    Chains may be long or end in a cycle; n items and m pairs take O((n + m) log n) (binary lifting, Bender and
+    Farach-Colton, 2004).
+
+    >>> are_reached(np.array([2, 0, 1]), np.array([0, 2, 1]), np.array([1, 2, -1])).tolist()
+    [True, False, False]
+    """
+    is_round = is_on_cycle(after, np.arange(len(after)))
+    # Cut where it enters a cycle, each chain is a path up a tree.
+    up = np.append(np.where(is_round, -1, after), -1)
+    depth = (up >= 0).astype(np.int64)
+    top = np.where(up >= 0, up, np.arange(len(up)))
+    steps = [up]
+    while (steps[-1] >= 0).any():
+        depth, top = depth + depth[steps[-1]], top[top]
+        steps.append(steps[-1][steps[-1]])
+    distance = depth[starts] - depth[goals]
+    here = starts
+    for power, step in enumerate(steps):
+        here = np.where((distance > 0) & (distance >> power & 1 > 0), step[here], here)
+    found = (distance > 0) & (here == goals)
+    if is_round.any():
+        least, ahead = np.arange(len(after)), np.where(is_round, after, np.arange(len(after)))
+        for _ in range(len(after).bit_length()):
+            least, ahead = np.minimum(least, least[ahead]), ahead[ahead]
+        entry = top[starts]
+        found |= is_round[goals] & is_round[entry] & (least[goals] == least[entry])
+    return np.asarray(found)
 
 
 def rounded(values: Array) -> Array:

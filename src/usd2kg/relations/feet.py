@@ -1,6 +1,6 @@
 """Feet: points on the underside of objects, and how far the surfaces below them are."""
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from typing import NamedTuple
 
 import numpy as np
@@ -19,6 +19,8 @@ Indices = NDArray[np.int64]
 _SAME_FACE = 1e-3
 """Metres: closer crossings are the two sides of a sheet."""
 _UP = 2
+_BLOCK = 1 << 9
+"""Surfaces measured at a time, which bounds memory; the corners of so many are still cached when needed again."""
 
 
 class Tops(NamedTuple):
@@ -41,8 +43,12 @@ def grid_feet(lower: Array, upper: Array) -> Array:
 
 def find_undersides(surfaces: Sequence[Surface]) -> list[Array]:
     """Return points (n, 3) on the whole underside of each surface, on a grid over its footprint."""
+    return [points for some in _blocks(surfaces) for points in _undersides_of(some)]
+
+
+def _undersides_of(surfaces: Sequence[Surface]) -> list[Array]:
     grids = [grid_feet(*extent_of(surface.corners)) for surface in surfaces]
-    lowest = np.split(underside_at(grids, surfaces), len(surfaces)) if surfaces else []
+    lowest = np.split(underside_at(grids, surfaces), len(surfaces))
     return [
         np.column_stack([grid[:, :_UP], heights])[np.isfinite(heights)]
         for grid, heights in zip(grids, lowest, strict=True)
@@ -54,9 +60,13 @@ def find_feet(surfaces: Sequence[Surface], height: float) -> list[Array]:
 
     They are spread evenly: a grid where the underside is broad, corners of the surface for legs and round bottoms.
     """
+    return [points for some in _blocks(surfaces) for points in _feet_of(some, height)]
+
+
+def _feet_of(surfaces: Sequence[Surface], height: float) -> list[Array]:
     low = [_low_corners(surface, height) for surface in surfaces]
     grids = [grid_feet(*extent_of(corners)) for corners in low]
-    undersides = np.split(underside_at(grids, surfaces), len(surfaces)) if surfaces else []
+    undersides = np.split(underside_at(grids, surfaces), len(surfaces))
     feet = []
     for corners, grid, underside in zip(low, grids, undersides, strict=True):
         broad = np.flatnonzero(underside <= corners[:, _UP].min() + height)
@@ -66,6 +76,10 @@ def find_feet(surfaces: Sequence[Surface], height: float) -> list[Array]:
         else:
             feet.append(_spread(corners))
     return feet
+
+
+def _blocks(surfaces: Sequence[Surface]) -> Iterator[Sequence[Surface]]:
+    return (surfaces[start : start + _BLOCK] for start in range(0, len(surfaces), _BLOCK))
 
 
 def _low_corners(surface: Surface, height: float) -> Array:

@@ -3,7 +3,7 @@
 import numpy as np
 from numpy.typing import NDArray
 
-from usd2kg.relations.array_records import concatenate_rows, select_rows
+from usd2kg.relations.array_records import are_reached, concatenate_rows, select_rows
 from usd2kg.relations.boxed_objects import BoxedObjects
 from usd2kg.relations.distances import box_gaps, exact_distances, surface_distances
 from usd2kg.relations.holding import Mounts
@@ -87,13 +87,7 @@ def measured_exactly(boxed: BoxedObjects, pairs: Mounts, is_mount: Mask) -> Moun
 
 def are_held_by_target(boxed: BoxedObjects, pairs: Mounts, holder: Indices) -> Mask:
     """Return for each pair whether the anchor is nested below the target, or held by it by way of other objects."""
-    here, found = holder[pairs.anchor], np.zeros(len(pairs.target), np.bool_)
-    for _ in range(len(holder)):
-        found |= here == pairs.target
-        if not (here >= 0).any():
-            break
-        here = np.where((here >= 0) & ~found, holder[here], -1)
     paths = [obj.prim_path for obj in boxed.objects]
     ends = zip(pairs.target.tolist(), pairs.anchor.tolist(), strict=True)
     nested = [paths[anchor].startswith(f"{paths[target]}/") for target, anchor in ends]
-    return np.asarray(found | np.array(nested, np.bool_))
+    return are_reached(pairs.target, pairs.anchor, holder) | np.array(nested, np.bool_)
