@@ -57,6 +57,14 @@ def test_the_scene_is_what_the_stage_holds(shared: Client):
     ]
 
 
+@pytest.mark.parametrize("color", ["", "color3f[] primvars:displayColor = [(1, 0, 0)]"])
+def test_the_scene_says_whether_anything_has_a_colour(color: str, tmp_path: Path):
+    stage = tmp_path / "cup.usda"
+    stage.write_text(f'#usda 1.0\ndef Cube "Cup" (kind = "component")\n{{\n{color}\n}}\n')
+    with running_studio(stage, tmp_path / "project") as client:
+        assert client.ask("api/scene").json()["has_colors"] is bool(color)
+
+
 def test_decisions_undo_and_redo(studio: Client):
     reply = decide(studio, [CUP_1, CUP_2], "confirm", comment="has a handle")
     assert [state["state"] for state in reply["states"]] == ["confirmed", "confirmed"]

@@ -27,8 +27,10 @@ def page(browser: Browser, shared: Client) -> Iterator[Page]:
 
 def test_arrows_go_through_a_list_and_a_letter_chooses(page: Page) -> None:
     colors = page.get_by_label("Color by")
+    # Nothing on the stage has a colour or a material.
+    expect(colors).to_have_value("class")
     colors.focus()
-    for expected in ("class", "concept"):
+    for expected in ("concept", "confidence"):
         page.keyboard.press("ArrowDown")
         expect(colors).to_have_value(expected)
         expect(colors).to_be_focused()

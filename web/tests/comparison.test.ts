@@ -85,6 +85,14 @@ describe("a comparison", () => {
     expect([other.drawer.value, other.colorMode.value]).toEqual(["review", "material"]);
   });
 
+  it("leaves a scene without colours of its own coloured by class", () => {
+    const { client } = makeStore();
+    const storage = { getItem: () => null, setItem: () => undefined };
+    const plain = new Store(client, { ...makeScene(), has_colors: false }, makeStates(), storage);
+    startWithComparison(plain);
+    expect(plain.colorMode.value).toBe("class");
+  });
+
   it("is filtered by kind: a change stays while one of its kinds is shown", async () => {
     const state = await loaded(makeStore());
     const paths = () => state.rows.value.map((change) => change.path);

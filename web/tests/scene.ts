@@ -11,6 +11,7 @@ export function makeScene(): SceneData {
     second_grounder: "",
     is_calibrated: true,
     is_graph: false,
+    has_colors: true,
     has_comparison: false,
     limits: {},
     reviewer: "Ann",

@@ -26,6 +26,7 @@ def scene_json(session: StudioSession, indices: PageIndices, reviewer: str) -> d
         "second_grounder": session.second.grounder if session.second is not None else "",
         "is_calibrated": grounding.is_calibrated,
         "is_graph": bool(session.stage_note),
+        "has_colors": any(obj.display_color is not None or obj.materials for obj in scene.objects),
         "limits": dict(session.limits),
         "reviewer": reviewer,
         "objects": _objects(session, indices),

@@ -28,6 +28,8 @@ export interface SceneData {
   is_calibrated: boolean;
   /** Whether the source is a knowledge graph, not a stage. */
   is_graph: boolean;
+  /** Whether objects have colours or materials of their own. */
+  has_colors: boolean;
   /** Whether `GET /api/comparison` answers. */
   has_comparison: boolean;
   /** Why something cannot be done in this session, as with a graph without its stage; absent if it can. */

@@ -64,7 +64,8 @@ export class Store {
   readonly isCutAway = signal(true);
   readonly hasLabels = signal(false);
   readonly cutShare = signal(1);
-  readonly colorMode = signal<ColorMode>("material");
+  /** By material at first; where nothing has one, that would be a grey picture. */
+  readonly colorMode: Signal<ColorMode>;
   readonly answer = signal<ReadonlySet<ObjectIndex>>(new Set());
   readonly relationKinds = signal<ReadonlySet<string>>(new Set(["on", "inside", "next-to", "attached-to", "part-of"]));
 
@@ -143,6 +144,7 @@ export class Store {
     this.canRedo.value = states.can_redo;
     this.outputs.value = states.outputs;
     this.reviewer = signal(storedReviewer(storage) ?? data.reviewer);
+    this.colorMode = signal(data.has_colors ? "material" : "class");
   }
 
   setReviewer(name: string): void {
