@@ -229,7 +229,7 @@ def test_converts_units(graph: GraphStore):
     assert objects(graph, "what is heavier than 50 kilograms and within 4 metres of the table?") == ["Wardrobe"]
     assert objects(graph, "what is heavier than 300 g and within 5 cm of the tray?") == ["cup_red"]
     asked = ask_offline(graph, "what is within 50 centimeters of the tray")
-    assert asked.understood.endswith("with distance = 50 cm, thing = the tray")
+    assert asked.understood == "close-to: What is within 50 cm of the tray?"
 
 
 def test_describes_an_object(graph: GraphStore):

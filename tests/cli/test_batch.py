@@ -2,6 +2,7 @@
 
 import json
 import os
+import shutil
 import signal
 import subprocess
 import sys
@@ -139,6 +140,21 @@ def test_graphs_are_loaded_into_a_store(run: Run, scenes: Scenes, tmp_path: Path
         "https://my.lab/a/room",
         "https://my.lab/b/room",
     ]
+
+
+def test_finished_graphs_are_loaded_into_a_store_that_lacks_them(run: Run, scenes: Scenes, tmp_path: Path):
+    folder, out, store = scenes("a.usda", "b.usda"), tmp_path / "out", tmp_path / "store"
+    assert run("batch", folder, "-o", out).code == 0
+    done = run("batch", folder, "-o", out, "--store", store)
+    assert (done.code, "2 scenes of 2 already finished" in done.err) == (0, True)
+    assert "2 finished graphs loaded into" in done.err
+    assert len(open_store(str(store)).graphs()) == 2
+    assert "loaded into" not in run("batch", folder, "-o", out, "--store", store).err
+    # Another store has none of them, nor has one that was deleted.
+    shutil.rmtree(store)
+    for place in (store, tmp_path / "other"):
+        assert "2 finished graphs loaded into" in run("batch", folder, "-o", out, "--store", place).err
+        assert len(open_store(str(place)).graphs()) == 2
 
 
 def test_other_formats_and_options_of_a_build(run: Run, scenes: Scenes, tmp_path: Path):

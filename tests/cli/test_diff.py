@@ -85,6 +85,23 @@ def test_builds_a_stage_like_the_graph_it_is_compared_with(run: Run, room: Path)
     assert run("diff", "room.ttl", room, "--format", "sparql").code == 0
 
 
+def test_asks_for_the_ontology_that_a_graph_states(run: Run, room: Path, tmp_path: Path) -> None:
+    ontology = tmp_path / "own.ttl"
+    ontology.write_text(
+        "@prefix owl: <http://www.w3.org/2002/07/owl#> . @prefix rdfs: <http://www.w3.org/2000/01/rdf-schema#> .\n"
+        "<https://my.lab/o> a owl:Ontology . <https://my.lab/o#Cup> a owl:Class ; rdfs:label 'cup' .\n"
+        "<https://my.lab/o#Bowl> a owl:Class ; rdfs:label 'bowl' .\n"
+    )
+    graph = tmp_path / "own_graph.ttl"
+    assert run("build", room, "-o", graph, "--ontology", ontology).code == 0
+    done = run("diff", graph, room)
+    assert (done.code, "<https://my.lab/o>, which is not built in; give the ontology" in done.err) == (2, True), (
+        done.err
+    )
+    done = run("diff", graph, room, "--ontology", ontology)
+    assert (done.code, done.out.splitlines()[-1]) == (0, "no changes in 4 objects")
+
+
 def test_reports_different_bases(run: Run, room: Path, edited: Path) -> None:
     for scene in (room, edited):
         assert run("build", scene, "-o", f"{scene.stem}.ttl").code == 0

@@ -115,6 +115,20 @@ def test_names_are_escaped(home_tbox: TBox):
     assert shorten("a\x00b\u202ec\n") == "a\ufffdb\ufffdc\ufffd"
 
 
+def test_what_is_attached_is_below_its_holder(tmp_path: Path):
+    graph = tmp_path / "hook.ttl"
+    graph.write_text(
+        "@prefix u2k: <https://w3id.org/usd2kg#> . @prefix rdfs: <http://www.w3.org/2000/01/rdf-schema#> .\n"
+        '<urn:wall> u2k:primPath "/wall" ; rdfs:label "wall" .\n'
+        '<urn:hook> u2k:primPath "/hook" ; rdfs:label "hook" ; u2k:attachedTo <urn:wall> .\n'
+        '<urn:coat> u2k:primPath "/coat" ; rdfs:label "coat" ; u2k:attachedTo <urn:hook> .\n',
+        encoding="utf-8",
+    )
+    shown = contents(draw_room(load_graph(graph), "hook"))
+    assert "coat | attached · no class" in shown
+    assert "no known relation" not in shown
+
+
 def test_draws_objects_with_cyclic_support(tmp_path: Path):
     graph = tmp_path / "cycle.ttl"
     graph.write_text(

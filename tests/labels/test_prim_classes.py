@@ -15,6 +15,7 @@ from usd2kg.graph import GraphOptions, instantiate, write_graph
 from usd2kg.graph.vocabulary import U2K
 from usd2kg.grounding import format_mapping, ground
 from usd2kg.labels import read_prim_classes
+from usd2kg.ontology import load_places_tbox
 from usd2kg.scene import read_scene
 
 
@@ -81,6 +82,15 @@ def test_reads_a_graph(home_tbox, tmp_path, profile, annotations):
     expected = {obj.prim_path: home_tbox.resolve(name) for obj, name in ROOM}
     assert {entry.prim_path: entry.class_iri for entry in entries} == expected
     assert all(entry.confidence is not None and entry.status == "grounded" for entry in entries)
+
+
+def test_a_graph_of_another_ontology_is_an_error(home_tbox, tmp_path):
+    path = tmp_path / "room.ttl"
+    write_graph(build_graph(load_places_tbox(), [(ROOM[0][0], "Pallet")]), path)
+    with pytest.raises(
+        GroundingError, match=r"Pallet, which the ontology .* lacks; give the ontology of these classes"
+    ):
+        read_prim_classes(path, home_tbox)
 
 
 GRAPH = """@prefix owl: <http://www.w3.org/2002/07/owl#> . @prefix rdf: <http://www.w3.org/1999/02/22-rdf-syntax-ns#> .

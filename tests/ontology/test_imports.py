@@ -1,9 +1,10 @@
-"""Imports are resolved by catalog or file name, never fetched, and reported if missing."""
+"""Imports are resolved by catalog, file name or header, never fetched, and reported if missing."""
 
 import pytest
 
 from usd2kg.errors import OntologyError
 from usd2kg.ontology import load_tbox
+from usd2kg.ontology.catalog import find_document
 
 CATALOG = '<catalog prefer="public" xmlns="urn:oasis:names:tc:entity:xmlns:xml:catalog">{}</catalog>'
 
@@ -79,6 +80,25 @@ def test_reads_an_import_with_two_iris_once(write_turtle):
     assert (names(tbox), tbox.imports) == (["Crockery", "Cup"], ("http://other.org/name",))
 
 
+@pytest.mark.parametrize(
+    "header",
+    [
+        "<http://example.com/upper> a owl:Ontology .",
+        "<http://example.com/upper#>\n  rdf:type owl:Ontology .",
+        '<owl:Ontology rdf:about="http://example.com/upper">',
+        "Ontology: <http://example.com/upper>",
+        "Ontology(<http://example.com/upper>",
+        '<Ontology ontologyIRI="http://example.com/upper">',
+    ],
+)
+def test_finds_an_import_by_the_iri_that_a_file_declares(tmp_path, header):
+    (tmp_path / "importing.ttl").write_text("<http://example.com/a> owl:imports <http://example.com/upper> .")
+    (tmp_path / "longer.ttl").write_text("<http://example.com/upper2> a owl:Ontology .")
+    assert find_document("http://example.com/upper", tmp_path) is None
+    (tmp_path / "museum.ttl").write_text(header)
+    assert find_document("http://example.com/upper", tmp_path) == tmp_path / "museum.ttl"
+
+
 def test_reports_a_missing_import(write_turtle):
     path = write_turtle(ontology("http://example.com/home", "http://example.com/upper") + PHYSICAL)
     tbox = load_tbox(path)
@@ -86,8 +106,8 @@ def test_reports_a_missing_import(write_turtle):
     assert [(note.code, note.message) for note in tbox.notes] == [
         (
             "missing-import",
-            f"{path}: imports <http://example.com/upper>, which is neither in catalog-v001.xml nor in the folder; "
-            "the hierarchy is built without it",
+            f"{path}: imports <http://example.com/upper>, which neither catalog-v001.xml nor a file in the folder names"
+            "; the hierarchy is built without it",
         )
     ]
 

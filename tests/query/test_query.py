@@ -320,6 +320,10 @@ class TestSparql:
         assert "\n" not in str(error.value)
         assert "\\u{" not in str(error.value)
 
+    def test_an_unknown_function_is_one_line(self, store: GraphStore):
+        with pytest.raises(GraphError, match=r"query: cannot be answered .*<urn:f> is not supported"):
+            store.sparql("SELECT (<urn:f>(?p) AS ?x) { ?o u2k:primPath ?p }")
+
     def test_hints_at_names_that_the_graph_lacks(self, store: GraphStore):
         query = "SELECT * { ?o u2k:primpath ?p ; a soma:Cups, u2k:Nothing ; rdfs:label 'u2k:text' } # u2k:comment"
         assert store.hints(query) == [

@@ -28,7 +28,8 @@ def find_free_places(
 ) -> list[FreePlace]:
     """Return the surfaces with a free spot for a thing, the emptiest first.
 
-    A surface is level where other things stand on it: the seat of a chair, not its back. A spot is free if the thing's
+    A surface is level where other things stand on it: the seat of a chair, not its back; the top board of a rack, since
+    what stands on it says nothing of the room below. A spot is free if the thing's
     box, with a clearance, meets no other box. The footprint may be turned by a right angle.
 
     Args:
@@ -44,8 +45,8 @@ def find_free_places(
     for iri in surfaces:
         row = rows.get(iri)
         bottoms = [table.lower[rows[one], 2] for one in facts.related("on", iri) if one in rows]
-        level = float(np.nanmedian(bottoms)) if bottoms else np.nan
-        if row is None or np.isnan(table.lower[row]).any() or not level <= PLACING.max_height:
+        level = _highest_level(bottoms)
+        if row is None or np.isnan(table.lower[row]).any() or np.isnan(level):
             continue
         bearers = [rows[one] for name in ("on", "part") for one in facts.anchors(name, iri) if one in rows]
         for footprint in sorted({(size[0], size[1]), (size[1], size[0])}):
@@ -54,6 +55,14 @@ def find_free_places(
                 found.append(FreePlace(iri, spot, _occupied(table.lower, table.upper, row, level)))
                 break
     return sorted(found, key=lambda place: (round(place.occupied, 2), place.surface))
+
+
+def _highest_level(bottoms: list[float]) -> float:
+    """Return the height at which the highest things within reach stand on an object, their median; NaN without any."""
+    known = np.array([bottom for bottom in bottoms if bottom <= PLACING.max_height])
+    if not len(known):
+        return float("nan")
+    return float(np.median(known[known > known.max() - PLACING.level]))
 
 
 def _free_spot(

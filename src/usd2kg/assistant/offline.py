@@ -330,9 +330,8 @@ class _Answerer:
     def _ready_question(self, question: str, given: Mapping[str, str]) -> InterpretedAnswer:
         """Return the answer to one of the questions that `usd2kg query --list` lists, for each object that is meant."""
         values = {name: _normalize(name, value) for name, value in given.items()}
-        text = next(q.text for q in list_questions() if q.id == question)
-        parameters = ", ".join(f"{name} = {value}" for name, value in values.items())
-        understood = f"{question}: {text}{f' with {parameters}' if parameters else ''}"
+        ready = next(q for q in list_questions() if q.id == question)
+        understood = f"{question}: {ready.filled_text(values)}"
         if question == "nearest":
             return self._distances.nearest(understood, values)
         if "thing" not in values:

@@ -53,6 +53,7 @@ class PlacingSettings(NamedTuple):
     clearance: float
     height: float
     max_places: int
+    level: float
     max_height: float
 
 

@@ -57,6 +57,8 @@ class Record:
     seconds: float = 0.0
     finished: str = ""
     """UTC, ISO 8601."""
+    store: str = ""
+    """Address of the store that has the graph, too; empty for none."""
     summary: Mapping[str, Any] = field(default_factory=dict)
     """Counts of objects, classes, statements and diagnostics."""
 

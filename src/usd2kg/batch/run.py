@@ -1,10 +1,10 @@
 """plan_batch and run_batch: select the scenes of a batch that still need building, and build them."""
 
-from collections.abc import Callable, Iterable, Iterator, Sequence
-from dataclasses import dataclass
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import dataclass, replace
 from datetime import UTC, datetime
 from pathlib import Path
-from typing import NamedTuple
+from typing import NamedTuple, Protocol
 from urllib.parse import quote
 
 from usd2kg.batch.job import LAYERS, Job, Outcome
@@ -15,18 +15,9 @@ from usd2kg.errors import OutputError, Usd2kgError, one_line
 from usd2kg.files import hash_file
 from usd2kg.graph.iris import check_base
 
-__all__ = ["BatchPlan", "Built", "plan_batch", "run_batch"]
+__all__ = ["BatchPlan", "BatchStore", "Built", "load_finished", "plan_batch", "run_batch"]
 
 DEFAULT_BASE = "https://example.org/"
-
-
-class BatchPlan(NamedTuple):
-    """The work of a batch."""
-
-    jobs: tuple[Job, ...]
-    """Scenes to build, largest files first, so that the last scenes to finish are short."""
-    finished: tuple[Record, ...]
-    """Scenes that are already built."""
 
 
 class Built(NamedTuple):
@@ -34,6 +25,29 @@ class Built(NamedTuple):
 
     job: Job
     record: Record
+
+
+class BatchStore(Protocol):
+    """A store that receives the graphs, too."""
+
+    address: str
+
+    def load(self, job: Job) -> None:
+        """Add or replace the graph of a job."""
+        ...
+
+    def has(self, job: Job) -> bool:
+        """Return whether the store has a graph of a job, maybe an older one."""
+        ...
+
+
+class BatchPlan(NamedTuple):
+    """The work of a batch."""
+
+    jobs: tuple[Job, ...]
+    """Scenes to build, largest files first, so that the last scenes to finish are short."""
+    finished: tuple[Built, ...]
+    """Scenes that are already built."""
 
 
 @dataclass(frozen=True)
@@ -80,7 +94,7 @@ def plan_batch(
     place, names = _Place(folder.absolute(), ending, base), output_names(scenes)
     sources = {scene.path.resolve() for scene in scenes}
     jobs: list[tuple[int, Job]] = []
-    finished: list[Record] = []
+    finished: list[Built] = []
     changed = ChangedFiles()
     for scene in scenes:
         job = place.job(scene, names[scene.name])
@@ -89,7 +103,7 @@ def plan_batch(
         record, state = manifest.get(scene.name), SourceState.of(scene.path)
         is_done = record is not None and _is_finished(record, job, state, options)
         if record is not None and is_done and not is_again and not changed.any_of(record.layers, scene.path):
-            finished.append(record)
+            finished.append(Built(job, record))
         else:
             jobs.append((-state.bytes, job))
     return BatchPlan(
@@ -110,7 +124,7 @@ def run_batch(
     *,
     options: str,
     folder: Path,
-    store: Callable[[Job], None] = lambda job: None,
+    store: BatchStore | None = None,
 ) -> Iterator[Built]:
     """Yield each scene after its record is written to disk.
 
@@ -120,7 +134,7 @@ def run_batch(
         outcomes: those of the jobs, as they end; each graph is in its file by then.
         options: as in `plan_batch`.
         folder: as in `plan_batch`.
-        store: puts the graph of a job elsewhere, too.
+        store: receives the graphs, too.
 
     Raises:
         OutputError: the manifest cannot be written.
@@ -128,14 +142,39 @@ def run_batch(
     states = {job.name: SourceState.of(job.source) for job in plan.jobs if job.source.exists()}
     for outcome in outcomes:
         error = outcome.error
-        if outcome.summary is not None:
-            try:
-                store(outcome.job)
-            except Usd2kgError as problem:
-                error = one_line(problem)
+        if outcome.summary is not None and store is not None:
+            error = _load(outcome.job, store)
         record = _record(outcome, error, options, states.get(outcome.job.name, SourceState(0, 0)), folder.absolute())
+        if store is not None and not error:
+            record = replace(record, store=store.address)
         manifest.add(record)
         yield Built(outcome.job, record)
+
+
+def load_finished(plan: BatchPlan, manifest: Manifest, store: BatchStore) -> Iterator[Built]:
+    """Yield each finished scene whose graph a store lacks, after it is loaded, or with the error why it cannot be.
+
+    Raises:
+        OutputError: the manifest cannot be written.
+    """
+    for job, record in plan.finished:
+        if record.store == store.address and store.has(job):
+            continue
+        error = _load(job, store)
+        if error:
+            yield Built(job, replace(record, error=error))
+        else:
+            manifest.add(replace(record, store=store.address))
+            yield Built(job, record)
+
+
+def _load(job: Job, store: BatchStore) -> str:
+    """Load the graph of a job into a store; return the error, empty if there is none."""
+    try:
+        store.load(job)
+    except Usd2kgError as problem:
+        return one_line(problem)
+    return ""
 
 
 def _record(outcome: Outcome, error: str, options: str, source: SourceState, folder: Path) -> Record:

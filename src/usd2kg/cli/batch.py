@@ -27,7 +27,7 @@ from usd2kg.errors import GroundingError, OutputError
 from usd2kg.version import VERSION
 
 if TYPE_CHECKING:
-    from usd2kg.batch import Built, Job, Outcome, PoolLimits
+    from usd2kg.batch import BatchPlan, Built, Job, Manifest, Outcome, PoolLimits
     from usd2kg.ontology import TBox
     from usd2kg.stores import SceneStore
 
@@ -161,7 +161,7 @@ def batch_command(
     task = _BuildTask(steps, ontology, merge_imports)
     options = _hash_options(task, tboxes, ending, base)
     limits = PoolLimits(workers or _count_cores(), time_limit, memory_limit)
-    opened = None if store is None else open_for_loading(store, store_update, store_data)
+    loaded = None if store is None else _LoadedStore(open_for_loading(store, store_update, store_data))
     start = time.perf_counter()
     # Like Ctrl+C: the workers are stopped, and finished graphs are kept.
     signal.signal(signal.SIGTERM, signal.default_int_handler)
@@ -169,11 +169,12 @@ def batch_command(
         plan = plan_batch(scenes, output, manifest, options=options, ending=ending, base=base, is_again=again)
         if plan.finished:
             notify(f"{count_noun(len(plan.finished), 'scene')} of {len(scenes)} already finished")
+        added = [] if loaded is None else loaded.load_finished(plan, manifest)
         built: list[Built] = []
         outcomes = _outcomes(task, plan.jobs, limits, on_ray=on_ray)
         with BatchProgress(plan.jobs, sum(1 for _ in plan.finished)) as progress, closing(outcomes):
             try:
-                for one in run_batch(plan, manifest, outcomes, options=options, folder=output, store=_loader(opened)):
+                for one in run_batch(plan, manifest, outcomes, options=options, folder=output, store=loaded):
                     built.append(one)
                     progress.show(one)
             except KeyboardInterrupt:
@@ -181,11 +182,11 @@ def batch_command(
                 raise typer.Exit(130) from None
             except ChildProcessError as error:
                 raise GroundingError(f"{error}; --verbose shows why, with one worker") from error
-    failed = [one.record for one in built if one.record.error]
+    failed = [one.record for one in (*added, *built) if one.record.error]
     seconds = time.perf_counter() - start
     summary = {
         "scenes": len(scenes),
-        "built": len(built) - len(failed),
+        "built": sum(not one.record.error for one in built),
         "finished_before": len(plan.finished),
         "failed": {record.scene: record.error for record in failed},
         "objects": sum(one.record.summary.get("objects", 0) for one in built),
@@ -211,15 +212,31 @@ def _outcomes(task: _BuildTask, jobs: "Iterable[Job]", limits: "PoolLimits", *, 
     return run_in_processes(task, jobs, limits)
 
 
-def _loader(store: "SceneStore | None") -> "Callable[[Job], None]":
-    """Return a function that loads the graph of a job into a store; it does nothing without a store."""
-    from usd2kg.stores import read_named_graph  # noqa: PLC0415
+class _LoadedStore:
+    """A store that receives the graphs of a batch."""
 
-    def load(job: "Job") -> None:
-        if store is not None:
-            store.load(read_named_graph(job.target))
+    def __init__(self, store: "SceneStore") -> None:
+        self.address = store.address
+        self._store = store
+        self._known = {graph.iri for graph in store.graphs()}
 
-    return load
+    def load(self, job: "Job") -> None:
+        from usd2kg.stores import read_named_graph  # noqa: PLC0415
+
+        self._store.load(read_named_graph(job.target))
+
+    def has(self, job: "Job") -> bool:
+        return job.base.rstrip("/") in self._known
+
+    def load_finished(self, plan: "BatchPlan", manifest: "Manifest") -> "list[Built]":
+        """Load the graphs of finished scenes that are not in the store; return their scenes."""
+        from usd2kg.batch import load_finished  # noqa: PLC0415
+
+        added = list(load_finished(plan, manifest, self))
+        if added:
+            count = sum(not one.record.error for one in added)
+            notify(f"{count_noun(count, 'finished graph')} loaded into {self.address}")
+        return added
 
 
 def _hash_options(task: _BuildTask, tboxes: "Iterable[TBox]", ending: str, base: str) -> str:

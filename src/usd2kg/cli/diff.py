@@ -150,7 +150,13 @@ def _parse_kinds(text: str) -> frozenset[str]:
 def _open_tbox(ontology: Path | None, scenes: "Iterable[Scene]", stated: "Iterable[str]") -> "TBox":
     from usd2kg.pipeline import open_tbox  # noqa: PLC0415
 
-    tbox = open_tbox(ontology, *scenes, stated=stated)
+    named = list(stated)
+    tbox = open_tbox(ontology, *scenes, stated=named)
+    if named and tbox.ontology_iri not in named and tbox.by_iri.keys().isdisjoint(named):
+        raise GraphError(
+            f"the graph states <{min(named, key=len)}>, which is not built in; give the ontology of its classes with "
+            "--ontology, or leave classes out with --no-ground"
+        )
     notify_notes(tbox)
     return tbox
 

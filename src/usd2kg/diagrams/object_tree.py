@@ -10,7 +10,7 @@ from usd2kg.query.graph_store import GraphStore
 __all__ = ["CardLine", "TreeObject", "class_families", "group_similar", "read_object_tree", "single_line"]
 
 _OBJECTS = """
-SELECT ?o ?path ?label ?c ?class ?confidence ?on ?in ?whole ?jointed ?w ?d ?h WHERE {
+SELECT ?o ?path ?label ?c ?class ?confidence ?on ?in ?whole ?jointed ?held ?w ?d ?h WHERE {
   ?o u2k:primPath ?path ; rdfs:label ?label .
   FILTER NOT EXISTS { ?o a u2k:RoomGroup }
   OPTIONAL {
@@ -20,13 +20,19 @@ SELECT ?o ?path ?label ?c ?class ?confidence ?on ?in ?whole ?jointed ?w ?d ?h WH
   OPTIONAL { ?o soma:isOntopOf|u2k:on ?on }
   OPTIONAL { ?o soma:isInsideOf|u2k:inside ?in }
   OPTIONAL { ?o u2k:partOf|^soma:hasPhysicalComponent ?whole . ?whole u2k:primPath [] }
+  OPTIONAL { ?o u2k:attachedTo ?held }
   OPTIONAL { ?j soma:hasChildLink|u2k:childObject ?o ; soma:hasParentLink|u2k:parentObject ?jointed }
   OPTIONAL {
     ?o (soma:hasShape/dul:hasRegion/soma:hasDepth)|u2k:width ?w ;
        (soma:hasShape/dul:hasRegion/soma:hasWidth)|u2k:depth ?d ;
        (soma:hasShape/dul:hasRegion/soma:hasHeight)|u2k:height ?h .
   }
-} ORDER BY ?path ?on ?in ?whole ?jointed"""
+} ORDER BY ?path ?on ?in ?whole ?jointed ?held"""
+
+_COLUMNS = (
+    *("o", "path", "label", "c", "class", "confidence"),
+    *("on", "in", "whole", "jointed", "held", "w", "d", "h"),
+)
 
 _CLASSES = """
 SELECT DISTINCT ?c ?label ?parent WHERE {
@@ -39,7 +45,7 @@ _OTHER = "other"
 
 @dataclass
 class TreeObject:
-    """An object; its parent is its container, supporter, whole, or jointed object, in this order of preference."""
+    """An object; its parent is its container, else its supporter, whole, jointed object or holder."""
 
     iri: str
     path: str
@@ -51,7 +57,7 @@ class TreeObject:
     """`width × depth × height cm` of the world box; empty without one."""
     parent: str | None
     tie: str
-    """Relation to the parent: in, on, part or joint; empty for a root."""
+    """Relation to the parent: in, on, part, joint or attached; empty for a root."""
     family: str = _OTHER
     children: list["TreeObject"] = field(default_factory=list)
 
@@ -73,13 +79,7 @@ def read_object_tree(store: GraphStore) -> dict[str, TreeObject]:
     """Return IRI → object in the order of prim paths, linked to parents and children."""
     objects: dict[str, TreeObject] = {}
     for values in store.sparql(_OBJECTS).values:
-        row = dict(
-            zip(
-                ("o", "path", "label", "c", "class", "confidence", "on", "in", "whole", "jointed", "w", "d", "h"),
-                values,
-                strict=True,
-            )
-        )
+        row = dict(zip(_COLUMNS, values, strict=True))
         if str(row["o"]) not in objects:
             objects[str(row["o"])] = _tree_object(row)
     families = class_families(store, [obj.class_iri for obj in objects.values() if obj.class_iri])
@@ -94,7 +94,13 @@ def read_object_tree(store: GraphStore) -> dict[str, TreeObject]:
 
 
 def _tree_object(row: Mapping[str, str | float | int | bool | None]) -> TreeObject:
-    ties = (("in", row["in"]), ("on", row["on"]), ("part", row["whole"]), ("joint", row["jointed"]))
+    ties = (
+        ("in", row["in"]),
+        ("on", row["on"]),
+        ("part", row["whole"]),
+        ("joint", row["jointed"]),
+        ("attached", row["held"]),
+    )
     tie, parent = next(((name, str(iri)) for name, iri in ties if iri), ("", None))
     sides = [row[name] for name in ("w", "d", "h")]
     size = " × ".join(f"{float(side) * 100:.3g}" for side in sides if side is not None)

@@ -155,6 +155,11 @@ def _read_graph(store: GraphStore, tbox: TBox) -> Iterator[tuple[str, PrimClass]
             # A group that is a room by its name is not an object, so the run does not ground it.
             continue
         iri = _most_specific([node.value for node in types if isinstance(node, ox.NamedNode)], tbox)
+        if iri is None and (other := [node for node in types if (subject, node) in annotations]):
+            raise GroundingError(
+                f"{store.source}: {path.value} has the class {other[0].value}, which the ontology {tbox.source} lacks; "
+                "give the ontology of these classes with --ontology"
+            )
         # The annotations of an object without a class are on the object itself.
         values = _literals(graph, annotations.get((subject, ox.NamedNode(iri)), subject) if iri else subject)
         status = values.get(U2K.status, "grounded" if iri else "")

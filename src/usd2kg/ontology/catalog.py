@@ -1,5 +1,6 @@
-"""OASIS XML catalogs (version 1.1), which map ontology IRIs to local files, and lookup by file name."""
+"""OASIS XML catalogs (version 1.1), which map ontology IRIs to local files, and lookup by file name and header."""
 
+import re
 from collections.abc import Iterator, Mapping
 from pathlib import Path, PurePosixPath, PureWindowsPath
 from urllib.parse import unquote
@@ -13,19 +14,43 @@ __all__ = ["CATALOG", "find_document", "format_catalog"]
 
 CATALOG = "catalog-v001.xml"
 """File name of a catalog."""
+_MAX_FILES, _MAX_HEADER = 200, 1 << 20
+"""Files of each kind, and bytes of each, that are searched for the IRI of an ontology."""
 _NAMESPACE = "urn:oasis:names:tc:entity:xmlns:xml:catalog"
 _URI = f"{{{_NAMESPACE}}}uri"
 
 
 def find_document(iri: str, folder: Path) -> Path | None:
-    """Return the local file of an ontology, by the catalog of `folder` or by file name; None if there is none."""
+    """Return the local file of an ontology; None if there is none.
+
+    By the catalog of `folder`, else by the name of a file in it, else by the IRI that a file in it declares.
+    """
     catalog = _read_catalog(folder / CATALOG)
     if iri in catalog:
         return catalog[iri] if _is_file(catalog[iri]) and _may_be_opened(catalog[iri], folder) else None
     name = iri.rstrip("#/").rpartition("/")[2]
     names = [name, *(Path(name).stem + ending for ending in ENDINGS)]
     # Look up plain file names only: an IRI must not reach other folders.
-    return next((folder / n for n in names if n and n not in {".", ".."} and _is_file(folder / n)), None)
+    named = (folder / n for n in names if n and n not in {".", ".."} and _is_file(folder / n))
+    return next(named, None) or next(_declaring(iri, folder), None)
+
+
+def _declaring(iri: str, folder: Path) -> Iterator[Path]:
+    """Yield the ontology files of a folder that declare an ontology IRI at their beginning."""
+    own = re.escape(iri.rstrip("#/")) + "[#/]?"
+    header = re.compile(
+        rf"<{own}>\s+(a|rdf:type)\s+owl:Ontology|owl:Ontology\s+rdf:about=[\"']{own}[\"']|ontologyIRI=[\"']{own}[\"']"
+        rf"|\bOntology(\s*\(|:)\s*<{own}>"
+    )
+    for ending in ENDINGS:
+        for path in sorted(folder.glob(f"*{ending}"))[:_MAX_FILES]:
+            try:
+                with path.open("rb") as file:
+                    beginning = file.read(_MAX_HEADER).decode("utf-8", "replace")
+            except OSError:
+                continue
+            if header.search(beginning):
+                yield path
 
 
 def _may_be_opened(path: Path, folder: Path) -> bool:

@@ -103,7 +103,7 @@ def close_imports(document: Document) -> tuple[tuple[Document, ...], tuple[Ontol
     """Return `document` with its transitive imports, and a note for each import that is missing.
 
     Imports are resolved by the OASIS catalog (`catalog-v001.xml`) in the folder of the importing document, then by file
-    name in that folder. Nothing is fetched from the network.
+    name in that folder, then by the IRI that a file there declares. Nothing is fetched from the network.
     """
     found = {document.iri: document}
     if document.version_iri:
@@ -143,6 +143,6 @@ def parse_import(path: Path, folder: Path) -> Document:
 
 def _missing_import(iri: str, document: Document) -> str:
     return (
-        f"{document.source}: imports <{iri}>, which is neither in {CATALOG} nor in the folder; "
+        f"{document.source}: imports <{iri}>, which neither {CATALOG} nor a file in the folder names; "
         "the hierarchy is built without it"
     )

@@ -7,7 +7,7 @@ from dataclasses import replace
 
 import pyoxigraph as ox
 
-from usd2kg.errors import GraphError
+from usd2kg.errors import GraphError, one_line
 from usd2kg.query import query_templates as templates
 from usd2kg.query.answer import Answer, join_answers, make_answer, with_columns
 from usd2kg.query.bodies import BodyIndex
@@ -156,6 +156,8 @@ class GraphStore:
             found = self._dataset.query(query, custom_functions=self._functions)
         except SyntaxError as error:
             raise GraphError(describe_syntax_error(query, error)) from error
+        except RuntimeError as error:
+            raise GraphError(f"query: cannot be answered ({one_line(error)})") from error
         if isinstance(found, ox.QueryBoolean):
             return Answer(("answer",), ((str(bool(found)).lower(),),), ((bool(found),),), query)
         if isinstance(found, ox.QueryTriples):

@@ -10,7 +10,7 @@ from usd2kg.query.lookup.body_measures import ELEVATION, MASS, TOP, BodyMeasures
 from usd2kg.query.lookup.colors import COLORS, has_color, has_material, is_material, material_words, own_colors
 from usd2kg.query.lookup.directions import find_between
 from usd2kg.query.lookup.openable_things import find_openable
-from usd2kg.query.lookup.related_things import find_parts, find_related
+from usd2kg.query.lookup.related_things import find_over, find_parts, find_related
 
 __all__ = ["EVERYTHING", "Filters", "both", "negated", "then"]
 
@@ -75,8 +75,13 @@ class Filters:
         """Choose what others are in a relation to: the table that the lamp stands on, directly if anything is."""
 
         def choose(iris: Sequence[str]) -> Collection[str]:
-            names = [relation, *(name for name in (*_HELD, "room") if name != relation)]
             wanted, held = set(iris), others.existing()
+            if relation == "below":
+                return {one for iri in held for one in find_over(self._facts, iri)} & wanted
+            if relation not in _HELD:
+                # What a thing is on is not what it is behind.
+                return {one for iri in held for one in self._facts.anchors(relation, iri)} & wanted
+            names = [relation, *(name for name in (*_HELD, "room") if name != relation)]
             for name in names:
                 direct = {one for iri in held for one in self._facts.anchors(name, iri)} & wanted
                 if direct:

@@ -71,6 +71,11 @@ class SceneFacts:
             if all(stem in lower for stem in stems):
                 yield iri, label
 
+    def below(self, iri: str) -> list[str]:
+        """Return the things below the prim of an object."""
+        above = f"{self.path(iri)}/"
+        return [one for one in self.things if self.path(one).startswith(above)]
+
     def below_group(self, name: str) -> list[str]:
         """Return the objects below a group, named in lower case; the root and its children are not groups."""
         part = f"/{name}/"
@@ -150,11 +155,11 @@ class SceneFacts:
         return sorted(map(self.label_of, self.classes(iri)))
 
     def kind(self, iri: str) -> str:
-        """Return what an object is: the noun of its concept, else the label of its class."""
+        """Return what an object is: the noun of its concept, else the label of its class, room for a group."""
         concept = self.concept(iri)
         if concept is not None and (noun := self.label_of(concept)):
             return noun
-        return next(iter(self.class_labels(iri)), "thing")
+        return next(iter(self.class_labels(iri)), "room" if iri in self.rooms else "thing")
 
     def confidences(self, iris: Iterable[str]) -> dict[str, float]:
         """Return object → confidence in its class, for those that have one."""
@@ -197,9 +202,9 @@ class SceneFacts:
         return int(self.dataset.select(query)[0]["n"].value)
 
     @cached_property
-    def has_rooms(self) -> bool:
-        """Whether objects are in rooms."""
-        return self.count("?s u2k:inRoom []") > 0
+    def rooms(self) -> list[str]:
+        """The rooms that objects are in, by prim path."""
+        return self._iris(np.unique(self.columns.relations["room"].pairs[:, 1]).tolist())
 
     # Joints.
 

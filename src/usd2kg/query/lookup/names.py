@@ -4,13 +4,24 @@ import os.path
 from collections.abc import Callable, Iterable, Iterator
 from functools import cached_property
 
+import numpy as np
+
 from usd2kg.grounding import concepts_named
 from usd2kg.knowledge import word_set
 from usd2kg.query.lookup.facts import SceneFacts
 from usd2kg.query.lookup.kinds import Kinds
 from usd2kg.query.lookup.related_things import find_parts
 from usd2kg.query.lookup.things import Things
-from usd2kg.query.lookup.word_forms import is_noun, name_parts, name_words, noun_words, singular, split_phrase
+from usd2kg.query.lookup.word_forms import (
+    is_noun,
+    is_place,
+    is_plural,
+    name_parts,
+    name_words,
+    noun_words,
+    singular,
+    split_phrase,
+)
 from usd2kg.query.settings import WORDS
 from usd2kg.words import split_identifier
 
@@ -21,6 +32,7 @@ _LINKS = word_set("query", "connectives") | word_set("query", "operators")
 _HELD = ("on", "inside", "attached", "part")
 """Relations of a thing to the one that it is found at."""
 _AREAS = word_set("query", "area_nouns")
+_ROOM_NOUNS = word_set("query", "room_nouns")
 
 _Criterion = Callable[[], Iterable[str]]
 """Returns the objects that match a name in one way."""
@@ -51,13 +63,14 @@ class NameMatcher:
         exact: tuple[_Criterion, ...] = (
             lambda: facts.at_path(text),
             lambda: facts.labelled({text, lower, text.upper(), text.title(), text.capitalize()}),
+            lambda: self._rooms(lower),
             lambda: self._with_run(text) if any(letter.isdigit() for letter in text) else (),
         )
         named: tuple[_Criterion, ...] = (
             lambda: facts.named(lower),
             lambda: facts.named("".join(lower.split())) or facts.named("_".join(lower.split())) if " " in lower else (),
             lambda: self._with_words(names, is_whole=True) if len(words) > 1 and words == names else (),
-            lambda: self._main_of_group("_".join(lower.split())) or self._main_of_groups(text),
+            lambda: self._main_of_groups(text) or self._main_of_group("_".join(lower.split())),
         )
         kinds: tuple[_Criterion, ...] = (
             lambda: self._in_place(text) if self._is_plain(text) else (),
@@ -103,6 +116,18 @@ class NameMatcher:
         words = noun_words(" ".join(word for word in split_phrase(text) if word not in _AREAS))
         return {iri for iri in self._facts.things if words and words <= self._group_words(self._group(iri))}
 
+    def _rooms(self, text: str) -> Iterator[str]:
+        """Yield the rooms with a name: the kitchen `R05_StaffKitchen`, the living room `living_bedroom`."""
+        words = noun_words(text) - {"room"}
+        if not self._facts.rooms or not (words or is_plural(text)):
+            return
+        head = singular(text.rsplit(maxsplit=1)[-1])
+        for iri in self._facts.rooms:
+            label = noun_words(self._facts.label(iri))
+            # Of other words than those for rooms, the name has all: a print is no print room.
+            if words == label or (words <= label and (text in _ROOM_NOUNS or head in _ROOM_NOUNS or is_place(head))):
+                yield iri
+
     def _with_words(self, words: frozenset[str], *, is_whole: bool = False) -> Iterator[str]:
         """Yield the objects whose label has some words; if whole, no others but numbers."""
         if words:
@@ -141,10 +166,17 @@ class NameMatcher:
             return set()
         noun = " ".join(word for word in split_identifier(name) if word.isalpha() and len(word) > 1)
         held = {iri for iri in grouped for name in _HELD if not grouped.isdisjoint(self._facts.anchors(name, iri))}
-        if len(carriers := grouped - held) == 1 and held:
-            # The sideboard of a group with what stands on it.
-            return (self._kinds.objects(noun) & grouped) or carriers
-        return (self._kinds.objects(noun) & grouped) or (grouped - find_parts(self._facts, grouped)) or grouped
+        if of_kind := self._kinds.objects(noun) & grouped:
+            return of_kind
+        carriers = (grouped - held) or grouped
+        if is_plural(noun):
+            return (grouped - find_parts(self._facts, grouped)) or grouped
+        # The sideboard of a group with what stands on it; the frame of a bed, not its pillows.
+        return {max(self._facts.sorted(carriers), key=self._volume)}
+
+    def _volume(self, iri: str) -> float:
+        extents = self._facts.body(iri).extents
+        return 0.0 if extents is None else float(np.prod(extents))
 
     def _main_of_groups(self, text: str) -> set[str]:
         """Return the main objects of the groups that are named after a kind: the fridge of `Refrigerator_1`."""
@@ -154,7 +186,9 @@ class NameMatcher:
         nouns = self._nouns_of_groups.items()
         named = [group for group, noun in nouns if noun_words(noun) == words]
         named = named or [group for group, noun in nouns if not meant.isdisjoint(self._kinds_of_group(noun))]
-        return {iri for group in named for iri in self._main_of_group(group)}
+        # The groups of single nightstands tell more than the one of all nightstands around them.
+        single = [group for group in named if not is_plural(self._nouns_of_groups[group])]
+        return {iri for group in single or named for iri in self._main_of_group(group)}
 
     def _kinds_of_group(self, noun: str) -> frozenset[str]:
         """Return the concepts of a noun and of its head: a wall cabinet is a cabinet."""

@@ -185,8 +185,10 @@ class Nouns(PlaceNouns):
             return part
         heads = (self._find(" ".join(words[start:])) for start in range(1, len(words)))
         found = next((head for head in heads if head is not None and head.iris), None)
-        # The door of an oven is not just any door, which is a part of something else.
-        return None if found is None or self._parts.are_parts(found) else found
+        # The door of an oven is not just any door, which is a part of something else; a back room is not just any room.
+        if found is None or self._parts.are_parts(found) or set(found.iris) <= set(self._facts.rooms):
+            return None
+        return found
 
     def _links(self, word: str) -> bool:
         return word in _CONNECTIVES or word in _RELATION_OF

@@ -2,21 +2,18 @@
 
 from collections.abc import Collection
 
-from usd2kg.grounding import hypernyms_of
 from usd2kg.knowledge import word_set
 from usd2kg.query.lookup.facts import SceneFacts
 from usd2kg.query.lookup.kinds import Kinds
 from usd2kg.query.lookup.names import NameMatcher
 from usd2kg.query.lookup.related_things import find_related
-from usd2kg.query.lookup.word_forms import noun_words, split_phrase
+from usd2kg.query.lookup.word_forms import is_place, noun_words, split_phrase
 
 __all__ = ["PlaceNouns"]
 
 _EVERYTHING = word_set("query", "general_nouns")
 _FLOORS = word_set("query", "floors")
 _ROOM_NOUNS = word_set("query", "room_nouns")
-_WHOLE_PLACES = word_set("query", "whole_places")
-_PLACE_KINDS = word_set("query", "place_kinds")
 
 
 class PlaceNouns:
@@ -57,11 +54,11 @@ class PlaceNouns:
         """Return whether a noun means the scene: the shop, or the room where the graph has none."""
         is_scene = self.is_place(text) or (text.isalpha() and text in noun_words(self._names.root))
         is_part = bool(self._kinds.objects(text) or self._names.in_area(text))
-        return is_scene and not is_part and not (text == "room" and self._facts.has_rooms)
+        return is_scene and not is_part and not (text == "room" and self._facts.rooms)
 
     def is_place(self, text: str) -> bool:
         """Return whether a noun means a place such as a room or a shop."""
-        return text in _WHOLE_PLACES or not _PLACE_KINDS.isdisjoint(hypernyms_of(text))
+        return is_place(text)
 
     def is_group(self, text: str) -> bool:
         """Return whether a noun means a place of which the graph only has the things in it, as a group."""

@@ -8,13 +8,18 @@ from usd2kg.query.body_table import Body
 from usd2kg.query.lookup.facts import SceneFacts
 from usd2kg.query.settings import DIRECTIONS
 
-__all__ = ["find_above", "find_below", "find_over_covers", "find_parts", "find_related"]
+__all__ = ["find_above", "find_below", "find_over", "find_over_covers", "find_parts", "find_related"]
 
 
 def find_related(facts: SceneFacts, relation: str, anchors: Iterable[str], *, is_direct: bool) -> set[str]:
-    """Return the objects in a relation to any of some anchors; if not direct, also those on or in these objects."""
+    """Return the objects in a relation to any of some anchors; if not direct, also those on or in these objects.
+
+    What is below the prim of a room is inside it, even where the graph does not know its place.
+    """
     names = [*anchors]
     found = {iri for anchor in names for iri in facts.related(relation, anchor)}
+    if relation == "inside":
+        found |= {iri for anchor in names if anchor in facts.rooms for iri in facts.below(anchor)}
     if relation == "on":
         found |= {iri for anchor in names for iri in _on_part(facts, anchor)}
     if is_direct or relation not in {"on", "inside"}:
@@ -78,6 +83,16 @@ def find_below(facts: SceneFacts, anchor: str) -> set[str]:
     own |= find_related(facts, "inside", [anchor], is_direct=False)
     legs = {iri for row in np.flatnonzero(is_over & is_lower).tolist() if (iri := table.iris[row]) not in own}
     return ({table.iris[row] for row in np.flatnonzero(is_below).tolist()} - _holders(facts, anchor)) | legs
+
+
+def find_over(facts: SceneFacts, iri: str) -> set[str]:
+    """Return the things that a thing is below, also between their legs: the inverse of `find_below`."""
+    body, table = facts.body(iri), facts.bodies.table
+    if body.lower is None or body.upper is None:
+        return set()
+    shared = np.minimum(table.upper, body.upper)[:, :2] - np.maximum(table.lower, body.lower)[:, :2]
+    rows = np.flatnonzero((shared > 0).all(axis=1) & (table.upper[:, 2] > body.upper[2]))
+    return {one for row in rows.tolist() if iri in find_below(facts, one := table.iris[row])}
 
 
 def find_above(facts: SceneFacts, anchor: str) -> set[str]:

@@ -4,7 +4,7 @@ import re
 from functools import lru_cache
 from itertools import takewhile
 
-from usd2kg.grounding import concepts_named
+from usd2kg.grounding import concepts_named, hypernyms_of
 from usd2kg.knowledge import word_set
 from usd2kg.words import split_identifier
 
@@ -12,6 +12,7 @@ __all__ = [
     "IRREGULAR_PLURALS",
     "common_stem",
     "is_noun",
+    "is_place",
     "is_plural",
     "name_parts",
     "name_words",
@@ -21,6 +22,8 @@ __all__ = [
 ]
 
 _FILLERS = word_set("query", "determiners")
+_WHOLE_PLACES = word_set("query", "whole_places")
+_PLACE_KINDS = word_set("query", "place_kinds")
 IRREGULAR_PLURALS = {
     "mouse": "mice",
     "knife": "knives",
@@ -73,6 +76,11 @@ def singular(word: str) -> str:
         if stem != word and len(stem) >= least and not word.endswith("ss"):
             return stem + replacement
     return word
+
+
+def is_place(noun: str) -> bool:
+    """Return whether a noun means a place such as a room or a shop."""
+    return noun in _WHOLE_PLACES or not _PLACE_KINDS.isdisjoint(hypernyms_of(noun))
 
 
 def is_plural(noun: str) -> bool:

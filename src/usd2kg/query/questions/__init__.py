@@ -86,6 +86,18 @@ class Question:
             return query
         return query.replace("WHERE {", f"WHERE {{\n  VALUES ?o {{ {' '.join(map(str, candidates))} }}", 1)
 
+    def filled_text(self, given: Mapping[str, str]) -> str:
+        """Return the question with values in place of its parameters, the defaults for those that are not given."""
+        units = {parameter.name: f" {parameter.kind}" for parameter in self.parameters if parameter.kind in {"m", "kg"}}
+
+        def value(found: re.Match[str]) -> str:
+            parameter = next(one for one in self.parameters if one.name == found[1])
+            if (known := given.get(parameter.name)) is not None:
+                return known
+            return found[0] if parameter.default is None else f"{parameter.default}{units.get(parameter.name, '')}"
+
+        return re.sub(r"\{([a-z_]+)\}", value, self.text)
+
     def fill(self, given: Mapping[str, str]) -> dict[Parameter, str]:
         """Return parameter → value as text, with defaults for omitted parameters.
 

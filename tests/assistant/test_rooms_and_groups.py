@@ -1,0 +1,76 @@
+"""Questions about rooms and groups by parts of their names, on a floor of a hotel."""
+
+import pytest
+
+import usd2kg
+from benchmarks.scenes.hotel.build import STAGE
+from usd2kg.assistant import ask_offline
+from usd2kg.errors import GraphError
+from usd2kg.query import GraphStore
+from usd2kg.query.lookup.related_things import find_below, find_over
+
+
+@pytest.fixture(scope="module")
+def hotel(tmp_path_factory: pytest.TempPathFactory) -> GraphStore:
+    path = tmp_path_factory.mktemp("hotel") / "hotel.ttl"
+    usd2kg.write_graph(usd2kg.build(STAGE).graph, path)
+    return usd2kg.load_graph(path)
+
+
+@pytest.mark.parametrize(("name", "room"), [("kitchen", "breakfast_kitchen"), ("linen room", "linen_room")])
+def test_a_room_is_found_by_a_part_of_its_name(hotel: GraphStore, name: str, room: str):
+    stated = hotel.sparql(f'SELECT ?o {{ ?o u2k:inRoom ?room . ?room rdfs:label "{room}" }}')
+    assert len(hotel.inside(name).rows) == len(stated.rows) > 30
+    asked = ask_offline(hotel, f"what is in the {name}?")
+    assert len(asked.answer.rows) >= len(stated.rows)
+    assert asked.sentence.endswith(f" are in the room {room}.")
+
+
+def test_rooms_are_counted(hotel: GraphStore):
+    assert ask_offline(hotel, "which rooms are there?").sentence == "There are five rooms."
+
+
+@pytest.mark.parametrize(
+    ("question", "sentence"),
+    [
+        ("how many beds are there?", "There is 1 bed."),
+        ("how many nightstands are there?", "There are 2 nightstands."),
+        ("how many toilets are there?", "There is 1 toilet."),
+    ],
+)
+def test_a_group_named_after_a_kind_is_one_of_it(hotel: GraphStore, question: str, sentence: str):
+    assert ask_offline(hotel, question).sentence == sentence
+
+
+def test_what_is_in_a_group_is_on_its_main_object(hotel: GraphStore):
+    assert ask_offline(hotel, "is the notepad on the nightstand?").verdict
+
+
+def test_a_free_place_is_on_the_highest_board(hotel: GraphStore):
+    # Its top is at 0.79 m, its shelf at 0.22 m; between them is nothing to put a laptop on.
+    assert ", 0.788) m" in ask_offline(hotel, "where can I put the laptop?").sentence
+
+
+@pytest.mark.parametrize("question", ["which doors are open?", "what drawers are still open?"])
+def test_what_is_open_is_not_what_can_be_opened(hotel: GraphStore, question: str):
+    with pytest.raises(GraphError, match="is not understood"):
+        ask_offline(hotel, question)
+    assert ask_offline(hotel, "which drawers can be opened?").answer.rows
+
+
+def test_things_are_below_what_is_over_them(kitchen: GraphStore):
+    facts = kitchen.facts
+    under = {(iri, one) for iri in facts.things for one in find_below(facts, iri)}
+    assert len(under) > 20
+    assert {(over, iri) for iri in facts.things for over in find_over(facts, iri)} == under
+    assert ask_offline(kitchen, "which table is the rug under?").understood
+
+
+def test_the_words_behind_an_answer_have_its_values(hotel: GraphStore):
+    unsure = ask_offline(hotel, "which objects are you unsure about?")
+    assert unsure.understood == "unsure: Which objects have an uncertain class (confidence below 0.5), and why?"
+    assert "Not taken into account" not in unsure.sentence
+    assert (
+        "(two extents below 0.12 m, lighter than 2 kg)?"
+        in ask_offline(hotel, "what can I grasp on the desk?").understood
+    )
