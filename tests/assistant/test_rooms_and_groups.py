@@ -1,5 +1,7 @@
 """Questions about rooms and groups by parts of their names, on a floor of a hotel."""
 
+from pathlib import Path
+
 import pytest
 
 import usd2kg
@@ -40,6 +42,19 @@ def test_rooms_are_counted(hotel: GraphStore):
 )
 def test_a_group_named_after_a_kind_is_one_of_it(hotel: GraphStore, question: str, sentence: str):
     assert ask_offline(hotel, question).sentence == sentence
+
+
+def test_a_group_counts_beside_things_of_the_kind(tmp_path: Path):
+    graph = tmp_path / "store.ttl"
+    graph.write_text(
+        "@prefix u2k: <https://w3id.org/usd2kg#> . @prefix rdfs: <http://www.w3.org/2000/01/rdf-schema#> .\n"
+        "@prefix owl: <http://www.w3.org/2002/07/owl#> .\n"
+        '<urn:Freezer> a owl:Class ; rdfs:label "fridge" .\n'
+        '<urn:a> a <urn:Freezer> ; u2k:primPath "/World/Store/box" ; rdfs:label "box" .\n'
+        '<urn:b> u2k:primPath "/World/Store/Fridge/cabinet_body" ; rdfs:label "cabinet_body" .\n'
+        '<urn:c> u2k:primPath "/World/Store/Fridge/butter" ; rdfs:label "butter" ; u2k:inside <urn:b> .\n'
+    )
+    assert ask_offline(usd2kg.load_graph(graph), "how many fridges are there?").sentence == "There are 2 fridges."
 
 
 def test_what_is_in_a_group_is_on_its_main_object(hotel: GraphStore):

@@ -74,7 +74,7 @@ class NameMatcher:
         )
         kinds: tuple[_Criterion, ...] = (
             lambda: self._in_place(text) if self._is_plain(text) else (),
-            lambda: self._kinds.objects(text),
+            lambda: self._kinds.objects(text) | (self._main_of_single_groups(text) if text.isalpha() else set()),
         )
         # One noun is rarely a name, and all names of a large graph take seconds to read.
         for criterion in (*exact, *kinds) if text.isalpha() else exact:
@@ -183,12 +183,21 @@ class NameMatcher:
         if not is_noun(text) or any(len(word) == 1 for word in text.split()):
             return set()
         meant, words = self._kinds.usual_concepts(text), noun_words(text)
+        # The groups of single nightstands tell more than the one of all nightstands around them.
+        if single := self._main_of_single_groups(text):
+            return single
         nouns = self._nouns_of_groups.items()
         named = [group for group, noun in nouns if noun_words(noun) == words]
         named = named or [group for group, noun in nouns if not meant.isdisjoint(self._kinds_of_group(noun))]
-        # The groups of single nightstands tell more than the one of all nightstands around them.
-        single = [group for group in named if not is_plural(self._nouns_of_groups[group])]
-        return {iri for group in single or named for iri in self._main_of_group(group)}
+        return {iri for group in named for iri in self._main_of_group(group)}
+
+    def _main_of_single_groups(self, text: str) -> set[str]:
+        """Return the main objects of the groups that a noun in the singular names: a group `Fridge` is one fridge."""
+        words = noun_words(text)
+        named = (
+            group for group, noun in self._nouns_of_groups.items() if not is_plural(noun) and noun_words(noun) == words
+        )
+        return {iri for group in named for iri in self._main_of_group(group)}
 
     def _kinds_of_group(self, noun: str) -> frozenset[str]:
         """Return the concepts of a noun and of its head: a wall cabinet is a cabinet."""
