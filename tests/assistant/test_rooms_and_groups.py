@@ -9,6 +9,7 @@ from benchmarks.scenes.hotel.build import STAGE
 from usd2kg.assistant import ask_offline
 from usd2kg.errors import GraphError
 from usd2kg.query import GraphStore
+from usd2kg.query.lookup.body_measures import BodyMeasures
 from usd2kg.query.lookup.related_things import find_below, find_over
 
 
@@ -71,6 +72,27 @@ def test_what_is_open_is_not_what_can_be_opened(hotel: GraphStore, question: str
     with pytest.raises(GraphError, match="is not understood"):
         ask_offline(hotel, question)
     assert ask_offline(hotel, "which drawers can be opened?").answer.rows
+
+
+def test_what_has_no_place_is_not_said_to_be_elsewhere(tmp_path: Path):
+    stage = tmp_path / "lab.usda"
+    stage.write_text(
+        '#usda 1.0\n(metersPerUnit = 1\nupAxis = "Z")\ndef Xform "Lab" (kind = "group")\n{\n'
+        'def Cube "floor_slab" (kind = "component")\n{\ndouble size = 4\ndouble3 xformOp:translate = (0, 0, -1.8)\n'
+        'uniform token[] xformOpOrder = ["xformOp:translate"]\n}\n'
+        'def Cube "Table" (kind = "component")\n{\ndouble size = 0.8\ndouble3 xformOp:translate = (0, 0, 0.6)\n'
+        'uniform token[] xformOpOrder = ["xformOp:translate"]\n}\n'
+        'def Xform "Milk" (kind = "component")\n{\n}\n}\n'
+    )
+    graph = tmp_path / "lab.ttl"
+    usd2kg.write_graph(usd2kg.build(stage).graph, graph)
+    lab = usd2kg.load_graph(graph)
+    with pytest.raises(GraphError, match="not known: the graph has no place of Milk"):
+        ask_offline(lab, "is the milk on the table?")
+    assert ask_offline(lab, "is the table on the floor?").verdict
+    # The top of the slab is the floor, not its underside.
+    assert BodyMeasures(lab.facts).floor_level == pytest.approx(0.2)
+    assert "another time" not in ask_offline(lab, "Was ist auf dem Boden?").sentence
 
 
 def test_things_are_below_what_is_over_them(kitchen: GraphStore):

@@ -101,7 +101,9 @@ def _parts_with_content(phrase: Phrase) -> list[str]:
     return [part for part in phrase.left if not _EMPTY_WORDS.issuperset(_words(part))]
 
 
-def with_notes(found: InterpretedAnswer, phrase: Phrase, text: str, read_as: Sequence[str]) -> InterpretedAnswer:
+def with_notes(
+    found: InterpretedAnswer, phrase: Phrase, text: str, read_as: Sequence[str], *, is_english: bool
+) -> InterpretedAnswer:
     """Return an answer that says which parts of its question were left out, and how unusual words were read.
 
     Args:
@@ -109,11 +111,12 @@ def with_notes(found: InterpretedAnswer, phrase: Phrase, text: str, read_as: Seq
         phrase: the interpretation of the question.
         text: the question.
         read_as: notes on nouns, which the sentence may have already.
+        is_english: whether the question is English; the German “was” is no past.
     """
     left = _parts_with_content(phrase)
     found = found.with_notes(read_as)
     said = [f"{_LEFT_OUT}: {join_words([f'“{part}”' for part in left])}."] if left else []
-    if phrase.question not in _ABOUT_TIME and not _OTHER_TIMES.isdisjoint(_words(text)):
+    if is_english and phrase.question not in _ABOUT_TIME and not _OTHER_TIMES.isdisjoint(_words(text)):
         said.append("The answer is about the scene as it is, not about another time.")
     return found.with_sentence(" ".join(filter(None, [found.sentence, *said]))) if said else found
 

@@ -197,7 +197,9 @@ class _Answerer:
                 self._check_topics(text, phrase)
                 found = read(phrase)
                 check_nothing(found, phrase, self._nouns.guesses)
-                return _Attempt(with_notes(found, phrase, text, self._nouns.notes), phrase.question)
+                return _Attempt(
+                    with_notes(found, phrase, text, self._nouns.notes, is_english=self._is_english), phrase.question
+                )
             except UnknownWordError as error:
                 # A pattern may have taken other words for a part of the noun. The error itself would be a reference
                 # cycle, which keeps the graph.

@@ -145,6 +145,9 @@ class RelationAnswers(Answers):
             found: what the graph states.
             anchors: what the relation leads to.
             what: the things among which is chosen; None for all.
+
+        Raises:
+            GraphError: the graph does not say where the things are.
         """
         facts, note = self._facts, ""
         is_any = what is None or what.text == "thing"
@@ -173,7 +176,18 @@ class RelationAnswers(Answers):
         chosen = [iri for iri in facts.sorted(found) if (what is None or iri in what.iris) and iri not in anchors]
         if name == "near" and what is not None and what.iris and not chosen and anchors:
             chosen, note = self._nearest_within_reach(what.iris, anchors)
+        if not chosen and what is not None and not is_any:
+            self._check_placed(what.iris)
         return chosen, note
+
+    def _check_placed(self, iris: Sequence[str]) -> None:
+        """Check that the place of some things is known, so that they may be said to be elsewhere.
+
+        Raises:
+            GraphError: none of them has a box.
+        """
+        if iris and all(self._facts.body(iri).lower is None for iri in iris):
+            raise GraphError(f"not known: the graph has no place of {join_few([*map(self._facts.label, iris)])}")
 
     def _nearest_within_reach(self, iris: Sequence[str], anchors: Sequence[str]) -> tuple[list[str], str]:
         """Return the nearest of some things, if it is within reach, and the note that says how far it is."""

@@ -155,7 +155,13 @@ class BodyMeasures:
         return float(min(tops)) if tops else float(np.nanmin(self._facts.bodies.table.lower[:, 2]))
 
     def _floors(self) -> list[str]:
-        return [iri for iri in self._facts.things if self._facts.kind(iri).rsplit(maxsplit=1)[-1] in _FLOORS]
+        facts = self._facts
+        # A floor slab is a floor by its class.
+        return [
+            iri
+            for iri in facts.things
+            if facts.kind(iri).rsplit(maxsplit=1)[-1] in _FLOORS or not _FLOORS.isdisjoint(facts.class_labels(iri))
+        ]
 
     def unmeasured(self, things: Things, measure: Measure) -> GraphError:
         """Return the error that things lack a measure."""
