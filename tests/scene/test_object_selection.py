@@ -101,6 +101,12 @@ def test_kinds_derived_from_component_are_components(tmp_path, write_stage):
     assert json.loads(done.stdout) == {"/World/Set/Cup": KIND, "/World/Set/b": OWNER}
 
 
+def test_a_name_is_kept_below_wrappers_without_one(read):
+    panel = xform("Xform_1", xform("Xform_2", xform("ControlPanel", xform("group_7", cube("mesh_1")))))
+    scene = read(xform("World", xform("Cells", panel, xform("Robot", cube("arm"), cube("base")))))
+    assert chosen(scene) == {"/World/Cells/Xform_1/Xform_2/ControlPanel": OWNER, "/World/Cells/Robot": OWNER}
+
+
 def test_unknown_kind_counts_as_none(read):
     scene = read(xform("World", xform("Cup", cube("a"), kind="crockery"), cube("b")))
     assert chosen(scene) == {"/World/Cup": OWNER, "/World/b": OWNER}

@@ -81,7 +81,7 @@ def test_zero_scale_has_a_position_but_no_rotation(read, factors):
     assert thing.position == (1, 2, 3)
     assert thing.orientation is None
     assert [note.message for note in notes if note.code == "transform"] == [
-        "its transform has no finite position or rotation; its pose is left out"
+        "its transform has no finite rotation; it is left out"
     ]
 
 

@@ -165,6 +165,14 @@ def test_accepts_a_spoon_that_sticks_out_of_a_cup(home_tbox: TBox, profile: str)
 
 
 @PROFILES
+def test_accepts_what_grows_wider_than_its_container(home_tbox: TBox, profile: str, tmp_path: Path):
+    path = tmp_path / "rules.toml"
+    path.write_text('[inside-smaller]\ngrowing_words = ["table"]\n')
+    graph = open_room(home_tbox, profile, added(f"k:Table {LINKS[profile][1]} k:Bowl"))
+    assert "inside-smaller" not in {finding.rule for finding in found_in(graph, rules=read_rules(path))}
+
+
+@PROFILES
 def test_accepts_a_top_on_several_slim_legs_but_not_on_one(home_tbox: TBox, profile: str):
     legs = [(thing(f"/Leg_{i}", (x, 4, 0), (0.05, 0.05, 0.7)), "DesignedComponent") for i, x in enumerate((4, 6.95))]
     placed = [*with_thing("/Top", (4, 3.6, 0.7), (3, 0.8, 0.04), "DesignedComponent"), *legs]

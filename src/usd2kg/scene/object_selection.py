@@ -268,7 +268,9 @@ def _owners_at(record: PrimRecord, cover: _Cover, below: list[_Cover]) -> list[P
     if has_gprims and not is_grouping:
         return [record]
     is_lone_root = _is_lone_root(record) and not cover.holds_objects
-    if len(found) == 1 and (is_lone_root or not is_grouping):
+    # A name is kept below wrappers without one: Xform_2/ControlPanel/mesh.
+    says_less = is_unnamed(record.name) and len(found) == 1 and not is_unnamed(found[0].name)
+    if len(found) == 1 and (is_lone_root or not is_grouping) and not says_less:
         return [record]
     # A named prim with unnamed pieces: Chair/group_1/mesh_7.
     if not is_grouping and not is_unnamed(record.name) and all(is_unnamed(owner.name) for owner in found):

@@ -389,8 +389,11 @@ class _ObjectReader:
             position, orientation = self.boxes.read_pose(record)
         except UNREADABLE:
             position, orientation = None, None
-        if position is None or orientation is None:
-            self._note("transform", record, "its transform has no finite position or rotation; its pose is left out")
+        missing = [name for name, value in (("position", position), ("rotation", orientation)) if value is None]
+        if missing:
+            what = " or ".join(missing)
+            left_out = "it is" if len(missing) == 1 else "both are"
+            self._note("transform", record, f"its transform has no finite {what}; {left_out} left out")
         return position, orientation
 
     def _note(self, code: str, record: PrimRecord, message: str) -> None:

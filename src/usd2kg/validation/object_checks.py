@@ -78,14 +78,18 @@ def check_support_odd(scene: CheckedScene, rule: Rule) -> Iterator[Implausible]:
 
 
 def check_inside_smaller(scene: CheckedScene, rule: Rule) -> Iterator[Implausible]:
-    """Yield objects too large for their container; a longer extent alone is acceptable: spoons stick out of pots."""
+    """Yield objects too large for their container; a longer extent alone is acceptable: spoons stick out of pots.
+
+    Plants may be wider than their pots, too.
+    """
     slack, ratio = rule.number("slack"), rule.number("volume_ratio")
     for obj, container in scene.contents():
         if obj.size is None or container.size is None:
             continue
         middle = sorted(obj.own_size or obj.size)[1]
         is_wide = middle > slack * math.hypot(*container.size)
-        if is_wide or volume_of(obj.size) > ratio * volume_of(container.size):
+        is_large = is_wide or volume_of(obj.size) > ratio * volume_of(container.size)
+        if is_large and not scene.classes.is_a(obj, rule, "growing_words"):
             found = f"its box of {size_text(obj.size)} is inside {name_of(container)}"
             yield Implausible(obj, found, f"a box that fits into {size_text(container.size)}")
 
