@@ -6,14 +6,30 @@ from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
-from pxr import Gf, Sdf, Usd, UsdGeom
+from pxr import Gf, Kind, Sdf, Usd, UsdGeom
 
-__all__ = ["draw", "write_instance", "write_mesh", "write_transform", "write_unit_gprim"]
+__all__ = ["draw", "write_instance", "write_mesh", "write_root", "write_transform", "write_unit_gprim"]
 
 
 def draw(path: str, errors: Sequence[float]) -> float:
     """Return the one of the errors that the path of an object decides, the same in each run."""
     return errors[hashlib.sha256(path.encode()).digest()[0] % len(errors)]
+
+
+def write_root(stage: Usd.Stage, path: Any, *, up: str, unit: float) -> None:
+    """Write the frame of a stage, and the assembly that holds all of it.
+
+    Args:
+        stage: an empty stage.
+        path: the path of the assembly, the default prim.
+        up: the axis that points up, Y or Z.
+        unit: metres per unit.
+    """
+    UsdGeom.SetStageUpAxis(stage, up)
+    UsdGeom.SetStageMetersPerUnit(stage, unit)
+    root = UsdGeom.Xform.Define(stage, path).GetPrim()
+    Usd.ModelAPI(root).SetKind(Kind.Tokens.assembly)
+    stage.SetDefaultPrim(root)
 
 
 def write_mesh(stage: Usd.Stage, path: Any, points: NDArray[np.float64], faces: Iterable[Sequence[int]]) -> Any:

@@ -7,7 +7,7 @@ from pathlib import Path
 from pxr import Kind, Sdf, Usd, UsdGeom
 
 from benchmarks.scenes.bakery.forms import NONE, Piece, Triple
-from benchmarks.scenes.prims import draw, write_instance, write_mesh, write_transform, write_unit_gprim
+from benchmarks.scenes.prims import draw, write_instance, write_mesh, write_root, write_transform, write_unit_gprim
 
 __all__ = ["Area", "new_stage", "save"]
 
@@ -20,11 +20,7 @@ SLIPS = (0.0, 0.0, 0.05, 0.1, 0.15, 0.2, -0.05, -0.1, -0.15, -0.2)
 def new_stage() -> "Area":
     """Return the root of a new stage."""
     stage = Usd.Stage.CreateInMemory()
-    UsdGeom.SetStageUpAxis(stage, UsdGeom.Tokens.y)
-    UsdGeom.SetStageMetersPerUnit(stage, 0.01)
-    root = UsdGeom.Xform.Define(stage, ROOT).GetPrim()
-    Usd.ModelAPI(root).SetKind(Kind.Tokens.assembly)
-    stage.SetDefaultPrim(root)
+    write_root(stage, ROOT, up="Y", unit=0.01)
     return Area(stage, ROOT)
 
 

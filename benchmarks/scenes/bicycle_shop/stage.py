@@ -7,7 +7,7 @@ from typing import Any, NamedTuple
 from pxr import Gf, Kind, Sdf, Usd, UsdGeom
 
 from benchmarks.scenes.bicycle_shop.parts import Mesh, Part, Primitive, Scatter, Vector, height
-from benchmarks.scenes.prims import draw, write_instance, write_mesh
+from benchmarks.scenes.prims import draw, write_instance, write_mesh, write_root
 
 __all__ = ["Asset", "Group", "Shop"]
 
@@ -29,11 +29,7 @@ class Shop:
 
     def __init__(self, out: Path) -> None:
         self.stage = Usd.Stage.CreateNew(str(out))
-        UsdGeom.SetStageUpAxis(self.stage, UsdGeom.Tokens.z)
-        UsdGeom.SetStageMetersPerUnit(self.stage, 0.01)
-        root = UsdGeom.Xform.Define(self.stage, ROOT).GetPrim()
-        Usd.ModelAPI(root).SetKind(Kind.Tokens.assembly)
-        self.stage.SetDefaultPrim(root)
+        write_root(self.stage, ROOT, up="Z", unit=0.01)
         self.things: list[str] = []
 
     def group(self, name: str, at: Vector = (0.0, 0.0, 0.0), yaw: float = 0.0) -> "Group":

@@ -9,7 +9,7 @@ from typing import Any
 from pxr import Kind, Sdf, Usd, UsdGeom
 
 from benchmarks.scenes.hotel.shapes import Part, resized
-from benchmarks.scenes.prims import draw, write_instance, write_mesh, write_transform, write_unit_gprim
+from benchmarks.scenes.prims import draw, write_instance, write_mesh, write_root, write_transform, write_unit_gprim
 
 __all__ = ["Group", "Hotel", "write"]
 
@@ -92,11 +92,7 @@ def _divided(values: Vec, unit: float) -> Vec:
 def write(hotel: Hotel, out: Path) -> None:
     """Write the stage."""
     stage = Usd.Stage.CreateInMemory()
-    UsdGeom.SetStageUpAxis(stage, UsdGeom.Tokens.y)
-    UsdGeom.SetStageMetersPerUnit(stage, 0.01)
-    root = UsdGeom.Xform.Define(stage, ROOT).GetPrim()
-    Usd.ModelAPI(root).SetKind(Kind.Tokens.assembly)
-    stage.SetDefaultPrim(root)
+    write_root(stage, ROOT, up="Y", unit=0.01)
     for path, (at, rot, unit) in hotel.groups.items():
         xform = UsdGeom.Xform.Define(stage, f"{ROOT}/{path}")
         Usd.ModelAPI(xform.GetPrim()).SetKind(Kind.Tokens.group)

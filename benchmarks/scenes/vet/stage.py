@@ -8,7 +8,7 @@ from typing import Any
 
 from pxr import Gf, Kind, Sdf, Usd, UsdGeom
 
-from benchmarks.scenes.prims import draw, write_instance, write_mesh, write_transform, write_unit_gprim
+from benchmarks.scenes.prims import draw, write_instance, write_mesh, write_root, write_transform, write_unit_gprim
 from benchmarks.scenes.vet.shapes import Part
 
 __all__ = ["ROOT", "Group", "Practice", "write"]
@@ -81,11 +81,7 @@ class Group:
 def write(practice: Practice, out: Path) -> None:
     """Write the stage."""
     stage = Usd.Stage.CreateInMemory()
-    UsdGeom.SetStageUpAxis(stage, UsdGeom.Tokens.z)
-    UsdGeom.SetStageMetersPerUnit(stage, 0.001)
-    root = UsdGeom.Xform.Define(stage, ROOT).GetPrim()
-    Usd.ModelAPI(root).SetKind(Kind.Tokens.assembly)
-    stage.SetDefaultPrim(root)
+    write_root(stage, ROOT, up="Z", unit=0.001)
     for path, (at, yaw, scale) in practice.groups.items():
         xform = UsdGeom.Xform.Define(stage, f"{ROOT}/{path}")
         Usd.ModelAPI(xform.GetPrim()).SetKind(Kind.Tokens.group)
