@@ -29,8 +29,8 @@ def find_free_places(
     """Return the surfaces with a free spot for a thing, the emptiest first.
 
     A surface is level where other things stand on it: the seat of a chair, not its back; the top board of a rack, since
-    what stands on it says nothing of the room below. A spot is free if the thing's
-    box, with a clearance, meets no other box. The footprint may be turned by a right angle.
+    what stands on it says nothing of the room below. A spot is free if the box of the thing, with a clearance, meets no
+    other box. The footprint may be turned by a right angle.
 
     Args:
         facts: the scene.

@@ -43,7 +43,7 @@ def _declaring(iri: str, folder: Path) -> Iterator[Path]:
         rf"|\bOntology(\s*\(|:)\s*<{own}>"
     )
     for ending in ENDINGS:
-        for path in sorted(folder.glob(f"*{ending}"))[:_MAX_FILES]:
+        for path in filter(_is_file, sorted(folder.glob(f"*{ending}"))[:_MAX_FILES]):
             try:
                 with path.open("rb") as file:
                     beginning = file.read(_MAX_HEADER).decode("utf-8", "replace")

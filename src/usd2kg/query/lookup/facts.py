@@ -1,6 +1,7 @@
 """SceneFacts: what a graph states about its objects, read when it is needed."""
 
 import math
+from bisect import bisect_left
 from collections import Counter
 from collections.abc import Iterable, Iterator, Mapping
 from functools import cached_property
@@ -73,8 +74,10 @@ class SceneFacts:
 
     def below(self, iri: str) -> list[str]:
         """Return the things below the prim of an object."""
-        above = f"{self.path(iri)}/"
-        return [one for one in self.things if self.path(one).startswith(above)]
+        columns, above = self.columns, f"{self.path(iri)}/"
+        # Objects are in the order of their paths.
+        start, end = bisect_left(columns.paths, above), bisect_left(columns.paths, f"{above}\U0010ffff")
+        return [columns.iris[row] for row in range(start, end) if not columns.is_group[row]]
 
     def below_group(self, name: str) -> list[str]:
         """Return the objects below a group, named in lower case; the root and its children are not groups."""

@@ -122,11 +122,14 @@ class NameMatcher:
         if not self._facts.rooms or not (words or is_plural(text)):
             return
         head = singular(text.rsplit(maxsplit=1)[-1])
-        for iri in self._facts.rooms:
-            label = noun_words(self._facts.label(iri))
+        for iri, label in self._words_of_rooms.items():
             # Of other words than those for rooms, the name has all: a print is no print room.
             if words == label or (words <= label and (text in _ROOM_NOUNS or head in _ROOM_NOUNS or is_place(head))):
                 yield iri
+
+    @cached_property
+    def _words_of_rooms(self) -> dict[str, frozenset[str]]:
+        return {iri: noun_words(self._facts.label(iri)) for iri in self._facts.rooms}
 
     def _with_words(self, words: frozenset[str], *, is_whole: bool = False) -> Iterator[str]:
         """Yield the objects whose label has some words; if whole, no others but numbers."""
