@@ -94,6 +94,11 @@ def are_reached(goals: Indices, starts: Indices, after: Indices) -> Mask:
     Chains may be long or end in a cycle; n items and m pairs take O((n + m) log n) (binary lifting, Bender and
     Farach-Colton, 2004).
 
+    Args:
+        goals: (m,), an item for each pair.
+        starts: (m,), the item that each chain starts from.
+        after: (n,), the item after each item.
+
     >>> are_reached(np.array([2, 0, 1]), np.array([0, 2, 1]), np.array([1, 2, -1])).tolist()
     [True, False, False]
     """
