@@ -169,11 +169,13 @@ def batch_command(
         plan = plan_batch(scenes, output, manifest, options=options, ending=ending, base=base, is_again=again)
         if plan.finished:
             notify(f"{count_noun(len(plan.finished), 'scene')} of {len(scenes)} already finished")
-        added = [] if loaded is None else loaded.load_finished(plan, manifest)
+        added: list[Built] = []
         built: list[Built] = []
         outcomes = _outcomes(task, plan.jobs, limits, on_ray=on_ray)
         with BatchProgress(plan.jobs, sum(1 for _ in plan.finished)) as progress, closing(outcomes):
             try:
+                if loaded is not None:
+                    added += loaded.load_finished(plan, manifest)
                 for one in run_batch(plan, manifest, outcomes, options=options, folder=output, store=loaded):
                     built.append(one)
                     progress.show(one)

@@ -153,9 +153,10 @@ def _open_tbox(ontology: Path | None, scenes: "Iterable[Scene]", stated: "Iterab
     named = list(stated)
     tbox = open_tbox(ontology, *scenes, stated=named)
     if named and tbox.ontology_iri not in named and tbox.by_iri.keys().isdisjoint(named):
+        shortest = min(named, key=lambda iri: (len(iri), iri))
         raise GraphError(
-            f"the graph states <{min(named, key=len)}>, which is not built in; give the ontology of its classes with "
-            "--ontology, or leave classes out with --no-ground"
+            f"the graph states <{shortest}>, which is not built in; give the ontology of its classes with --ontology, "
+            "or leave classes out with --no-ground"
         )
     notify_notes(tbox)
     return tbox

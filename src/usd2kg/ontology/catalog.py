@@ -46,10 +46,11 @@ def _declaring(iri: str, folder: Path) -> Iterator[Path]:
         for path in filter(_is_file, sorted(folder.glob(f"*{ending}"))[:_MAX_FILES]):
             try:
                 with path.open("rb") as file:
-                    beginning = file.read(_MAX_HEADER).decode("utf-8", "replace")
+                    beginning = file.read(_MAX_HEADER)
             except OSError:
                 continue
-            if header.search(beginning):
+            # Most files do not mention it, and a search of bytes is fast.
+            if iri.rstrip("#/").encode() in beginning and header.search(beginning.decode("utf-8", "replace")):
                 yield path
 
 
