@@ -10,7 +10,7 @@ from usd2kg.assistant import ask_offline
 from usd2kg.errors import GraphError
 from usd2kg.query import GraphStore
 from usd2kg.query.lookup.body_measures import BodyMeasures
-from usd2kg.query.lookup.related_things import find_below, find_over
+from usd2kg.query.lookup.related_things import find_below, find_over, find_related
 
 
 @pytest.fixture(scope="module")
@@ -27,6 +27,21 @@ def test_a_room_is_found_by_a_part_of_its_name(hotel: GraphStore, name: str, roo
     asked = ask_offline(hotel, f"what is in the {name}?")
     assert len(asked.answer.rows) >= len(stated.rows)
     assert asked.sentence.endswith(f" are in the room {room}.")
+
+
+def test_what_is_below_a_room_may_be_stated_to_be_in_another(tmp_path: Path):
+    graph = tmp_path / "flat.ttl"
+    graph.write_text(
+        "@prefix u2k: <https://w3id.org/usd2kg#> . @prefix rdfs: <http://www.w3.org/2000/01/rdf-schema#> .\n"
+        '<urn:k> u2k:primPath "/Flat/Kitchen" ; rdfs:label "Kitchen" .\n'
+        '<urn:h> u2k:primPath "/Flat/Hall" ; rdfs:label "Hall" .\n'
+        '<urn:a> u2k:primPath "/Flat/Kitchen/pan" ; rdfs:label "pan" ; u2k:inRoom <urn:k> .\n'
+        '<urn:b> u2k:primPath "/Flat/Kitchen/broom" ; rdfs:label "broom" ; u2k:inRoom <urn:h> .\n'
+        '<urn:c> u2k:primPath "/Flat/Kitchen/oven" ; rdfs:label "oven" .\n'
+    )
+    facts = usd2kg.load_graph(graph).facts
+    assert find_related(facts, "inside", ["urn:k"], is_direct=True) == {"urn:a", "urn:c"}
+    assert find_related(facts, "inside", ["urn:h"], is_direct=True) == {"urn:b"}
 
 
 def test_rooms_are_counted(hotel: GraphStore):
@@ -93,6 +108,11 @@ def test_what_has_no_place_is_not_said_to_be_elsewhere(tmp_path: Path):
     # The top of the slab is the floor, not its underside.
     assert BodyMeasures(lab.facts).floor_level == pytest.approx(0.2)
     assert "another time" not in ask_offline(lab, "Was ist auf dem Boden?").sentence
+
+
+def test_what_a_thing_is_behind_needs_a_viewpoint(hotel: GraphStore):
+    with pytest.raises(GraphError, match="not known: the graph does not state what the armchair is behind"):
+        ask_offline(hotel, "which table is the armchair behind?")
 
 
 def test_things_are_below_what_is_over_them(kitchen: GraphStore):

@@ -11,7 +11,7 @@ from usd2kg.knowledge import word_set
 from usd2kg.query.lookup import Things, UnknownWordError
 from usd2kg.query.lookup.body_measures import BodyMeasures
 from usd2kg.query.lookup.directions import find_beside, find_between
-from usd2kg.query.lookup.prepositions import is_direct, relation_of
+from usd2kg.query.lookup.prepositions import SIDES, is_direct, relation_of
 from usd2kg.query.lookup.related_things import find_above, find_over_covers, find_parts, find_related
 from usd2kg.query.lookup.word_forms import is_plural, split_phrase
 from usd2kg.query.settings import DIRECTIONS
@@ -34,7 +34,7 @@ PREPOSITIONS = {
 """Relation → preposition."""
 _ALL = re.compile(r"(all|every|each|both|everything)\b|the [^?]*(?<!s)s$", re.IGNORECASE)
 _EACH = re.compile(r"(each|every)( one)?( of)?( the)? ", re.IGNORECASE)
-_BY_BOXES = frozenset(["above", "left", "right", "front", "behind"])
+_BY_BOXES = frozenset(["above", *SIDES])
 """Relations that the boxes tell where the graph states none."""
 
 

@@ -3,13 +3,14 @@
 from collections.abc import Collection, Sequence
 
 from usd2kg.assistant.composition.groups import ANY, Filter, Group, Quantity
-from usd2kg.assistant.relation_answers import RelationAnswers
+from usd2kg.assistant.relation_answers import PREPOSITIONS, RelationAnswers
 from usd2kg.errors import GraphError
 from usd2kg.query.lookup import Nouns, SceneFacts, UnknownWordError
 from usd2kg.query.lookup.body_measures import ELEVATION, MASS, TOP, BodyMeasures, Measure
 from usd2kg.query.lookup.colors import COLORS, has_color, has_material, is_material, material_words, own_colors
 from usd2kg.query.lookup.directions import find_between
 from usd2kg.query.lookup.openable_things import find_openable
+from usd2kg.query.lookup.prepositions import SIDES
 from usd2kg.query.lookup.related_things import find_over, find_parts, find_related
 
 __all__ = ["EVERYTHING", "Filters", "both", "negated", "then"]
@@ -80,7 +81,11 @@ class Filters:
                 return {one for iri in held for one in find_over(self._facts, iri)} & wanted
             if relation not in _HELD:
                 # What a thing is on is not what it is behind.
-                return {one for iri in held for one in self._facts.anchors(relation, iri)} & wanted
+                stated = {one for iri in held for one in self._facts.anchors(relation, iri)} & wanted
+                if not stated and relation in SIDES:
+                    place = PREPOSITIONS[relation]
+                    raise GraphError(f"not known: the graph does not state what the {others.text} is {place}")
+                return stated
             names = [relation, *(name for name in (*_HELD, "room") if name != relation)]
             for name in names:
                 direct = {one for iri in held for one in self._facts.anchors(name, iri)} & wanted
@@ -135,7 +140,7 @@ class Filters:
             raise GraphError("not known: the graph states no parts of these things as objects of their own")
 
     def _held(self, iri: str, relation: str, others: Group) -> set[str]:
-        if relation in {"near", "below", "above", "left", "right", "front", "behind"}:
+        if relation in {"near", "below", "above", *SIDES}:
             return self._in_relation(relation, [iri], others.iris, is_direct=True)
         names = [relation] if relation else ["on", "inside"]
         found = {one for name in names for one in find_related(self._facts, name, [iri], is_direct=False)}

@@ -12,7 +12,7 @@ from usd2kg.errors import GraphError
 from usd2kg.grounding import concepts_named
 from usd2kg.knowledge import word_map, word_set
 from usd2kg.query.lookup import Nouns, Things, UnknownWordError
-from usd2kg.query.lookup.word_forms import is_plural, singular
+from usd2kg.query.lookup.word_forms import is_place, is_plural, singular
 
 __all__ = ["NEAREST", "FilterParses", "KnownNouns", "NounPhrases"]
 
@@ -258,5 +258,5 @@ class NounPhrases:
         text = group.text.lower()
         return not group.filters and (
             self._nouns.is_whole_scene(text)
-            or (not group.noun.iris and self._nouns.is_place(text) and not self._nouns.lacks_room(text))
+            or (not group.noun.iris and is_place(text) and not self._nouns.lacks_room(text))
         )

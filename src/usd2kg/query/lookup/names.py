@@ -163,16 +163,17 @@ class NameMatcher:
         return bool(before) and not set(concepts_named(" ".join([*before, head]))).isdisjoint(concepts_named(head))
 
     def _main_of_group(self, name: str) -> set[str]:
-        """Return the objects of the kind that a group is named after: the desk of Desk_A1."""
+        """Return the objects of the kind that a group is named after, the desk of Desk_A1, else what it consists of."""
         grouped = set(self._facts.below_group(name))
         if not grouped:
             return set()
         noun = " ".join(word for word in split_identifier(name) if word.isalpha() and len(word) > 1)
-        held = {iri for iri in grouped for name in _HELD if not grouped.isdisjoint(self._facts.anchors(name, iri))}
         if of_kind := self._kinds.objects(noun) & grouped:
             return of_kind
+        held = {iri for iri in grouped for name in _HELD if not grouped.isdisjoint(self._facts.anchors(name, iri))}
         carriers = (grouped - held) or grouped
-        if is_plural(noun):
+        if len(carriers) > 1 and (is_plural(noun) or is_place(noun) or not concepts_named(noun)):
+            # The group is no single thing.
             return (grouped - find_parts(self._facts, grouped)) or grouped
         # The sideboard of a group with what stands on it; the frame of a bed, not its pillows.
         return {max(self._facts.sorted(carriers), key=self._volume)}

@@ -19,7 +19,7 @@ from usd2kg.query.lookup.general_kinds import find_more_general
 from usd2kg.query.lookup.modifiers import PhraseModifiers, restricts
 from usd2kg.query.lookup.part_phrases import PartPhrases
 from usd2kg.query.lookup.place_nouns import PlaceNouns
-from usd2kg.query.lookup.prepositions import DIRECTLY, RELATION_OF, preposition_pattern
+from usd2kg.query.lookup.prepositions import DIRECTLY, RELATION_OF, SIDES, preposition_pattern
 from usd2kg.query.lookup.related_things import find_below, find_related
 from usd2kg.query.lookup.things import Things, UnknownWordError
 from usd2kg.query.lookup.word_forms import (
@@ -45,8 +45,7 @@ _FLOORS = word_set("query", "floors")
 _SHELLS = word_set("query", "shells")
 _ROOM_NOUNS = word_set("query", "room_nouns")
 _LANGUAGES = ("de", "fr", "es", "it")
-_SIDES = ("left", "right", "front", "behind")
-_RELATIONS = ("on", "inside", "near", "above", "below", "attached", *_SIDES)
+_RELATIONS = ("on", "inside", "near", "above", "below", "attached", *SIDES)
 """Relations in noun phrases: cups on the table."""
 _ORIGIN = {"from": "inside"}
 """Prepositions of noun phrases only: the milk from the fridge is in or on it, but what hangs from it is not."""
@@ -397,7 +396,7 @@ class Nouns(PlaceNouns):
         # What is on a table is not on the floor.
         is_direct = is_direct or (relation == "on" and set(anchors) <= self.floors)
         found = find_related(self._facts, relation, anchors, is_direct=is_direct)
-        if relation not in _SIDES or found:
+        if relation not in SIDES or found:
             return found
         self.notes.append("What is beside a thing is by boxes, as seen from among the surrounding objects")
         return {iri for anchor in anchors for iri in find_beside(self._facts, relation, anchor) or ()}

@@ -52,15 +52,11 @@ class PlaceNouns:
 
     def is_whole_scene(self, text: str) -> bool:
         """Return whether a noun means the scene: the shop, or the room where the graph has none."""
-        is_scene = self.is_place(text) or (text.isalpha() and text in noun_words(self._names.root))
+        is_scene = is_place(text) or (text.isalpha() and text in noun_words(self._names.root))
         is_part = bool(self._kinds.objects(text) or self._names.in_area(text))
         return is_scene and not is_part and not (text == "room" and self._facts.rooms)
 
-    def is_place(self, text: str) -> bool:
-        """Return whether a noun means a place such as a room or a shop."""
-        return is_place(text)
-
     def is_group(self, text: str) -> bool:
         """Return whether a noun means a place of which the graph only has the things in it, as a group."""
-        is_place = text in _ROOM_NOUNS or self.is_place(text)
-        return is_place and not self._kinds.objects(text) and bool(self._names.in_area(text))
+        is_named = text in _ROOM_NOUNS or is_place(text)
+        return is_named and not self._kinds.objects(text) and bool(self._names.in_area(text))

@@ -5,10 +5,12 @@ from collections.abc import Collection
 
 from usd2kg.knowledge import word_map
 
-__all__ = ["DIRECTLY", "RELATION_OF", "is_direct", "preposition_pattern", "relation_of"]
+__all__ = ["DIRECTLY", "RELATION_OF", "SIDES", "is_direct", "preposition_pattern", "relation_of"]
 
 RELATION_OF = word_map("query", "relation_words")
 """Preposition in lower case → relation."""
+SIDES = ("left", "right", "front", "behind")
+"""Relations that need a viewpoint, which a graph may lack."""
 DIRECTLY = r"(?:directly|immediately) (?=(?:on|upon|in|inside|into)\b)"
 """Regular expression of the adverb by which what is on a tray on a table is not on the table."""
 

@@ -14,12 +14,18 @@ __all__ = ["find_above", "find_below", "find_over", "find_over_covers", "find_pa
 def find_related(facts: SceneFacts, relation: str, anchors: Iterable[str], *, is_direct: bool) -> set[str]:
     """Return the objects in a relation to any of some anchors; if not direct, also those on or in these objects.
 
-    What is below the prim of a room is inside it, even where the graph does not know its place.
+    What is below the prim of a room is inside it where the graph states no room for it.
     """
     names = [*anchors]
     found = {iri for anchor in names for iri in facts.related(relation, anchor)}
     if relation == "inside":
-        found |= {iri for anchor in names if anchor in facts.rooms for iri in facts.below(anchor)}
+        found |= {
+            iri
+            for anchor in names
+            if anchor in facts.rooms
+            for iri in facts.below(anchor)
+            if not facts.anchors("room", iri)
+        }
     if relation == "on":
         found |= {iri for anchor in names for iri in _on_part(facts, anchor)}
     if is_direct or relation not in {"on", "inside"}:
