@@ -12,7 +12,10 @@ from usd2kg.query.graph_store import GraphStore
 __all__ = ["draw_room"]
 
 _SUPPORTS = "; supports the cards marked “on”"
-_NOTE = "Indentation: on the object above, or “in”, “part”, “joint”. ×: number of similar objects. Number: confidence."
+_NOTE = (
+    "Indentation: on the object above, or “in”, “part”, “joint”, “attached”. ×: number of similar objects. "
+    "Number: confidence."
+)
 
 
 _LINE_SPACE = 25.0
