@@ -107,6 +107,31 @@ def test_a_name_is_kept_below_wrappers_without_one(read):
     assert chosen(scene) == {"/World/Cells/Xform_1/Xform_2/ControlPanel": OWNER, "/World/Cells/Robot": OWNER}
 
 
+def test_the_only_object_of_a_group_beside_groups_of_several_is_kept(read):
+    kitchen = xform("Kitchen", xform("Sink", cube("mesh")), xform("Stove", cube("mesh")))
+    scene = read(
+        xform(
+            "World",
+            kitchen,
+            xform("Office", xform("Desk", cube("mesh"))),
+            xform("Chair_1", xform("SM_Chair", cube("mesh"))),
+        )
+    )
+    assert [path.removeprefix("/World/") for path in chosen(scene)] == [
+        "Kitchen/Sink",
+        "Kitchen/Stove",
+        "Office/Desk",
+        "Chair_1",
+    ]
+
+
+def test_a_wrapper_of_one_object_beside_such_wrappers_is_the_object(read):
+    scene = read(
+        xform("World", xform("Cooker", xform("Body", cube("mesh"))), xform("Bin", xform("Shell", cube("mesh"))))
+    )
+    assert [*chosen(scene)] == ["/World/Cooker", "/World/Bin"]
+
+
 def test_unknown_kind_counts_as_none(read):
     scene = read(xform("World", xform("Cup", cube("a"), kind="crockery"), cube("b")))
     assert chosen(scene) == {"/World/Cup": OWNER, "/World/b": OWNER}

@@ -16,7 +16,7 @@ from usd2kg.scene.options import SelectionOverrides
 from usd2kg.scene.outline import Outline, PrimRecord
 from usd2kg.scene.robots import merge_robots
 from usd2kg.scene.unnamed_pieces import Measure, is_unnamed, merge_unnamed_pieces
-from usd2kg.words import split_identifier
+from usd2kg.words import split_identifier, words_of
 
 __all__ = ["ASKED_FOR", "Selection", "explain", "path_pattern", "select_objects"]
 
@@ -227,6 +227,8 @@ class _Cover:
     """Whether there are candidates at or below the prim."""
     owners: list[PrimRecord] = field(default_factory=list)
     """The prims that own them."""
+    inner: PrimRecord | None = None
+    """The only owner below the prim, of another name, which the prim replaces unless it is a group as its siblings are."""
 
 
 def _geometry_owners(root: PrimRecord, candidates: dict[str, str]) -> dict[str, str]:
@@ -251,6 +253,7 @@ def _cover(record: PrimRecord, candidates: dict[str, str], covers: dict[str, _Co
     if record.path in candidates:
         return _Cover(holds_objects=True)
     below = [covers.pop(child.path) for child in record.children]
+    _keep_lone_members_of_groups(below)
     cover = _Cover(holds_objects=any(c.holds_objects for c in below))
     is_own = record.is_gprim and not record.is_hidden
     cover.uncovered = is_own + sum(c.uncovered for c in below)
@@ -258,7 +261,24 @@ def _cover(record: PrimRecord, candidates: dict[str, str], covers: dict[str, _Co
         cover.owners = [record]
     elif cover.uncovered:
         cover.owners = _owners_at(record, cover, below)
+        cover.inner = _inner_owner(record, cover, below)
     return cover
+
+
+def _keep_lone_members_of_groups(siblings: list[_Cover]) -> None:
+    """Keep the only object of a group beside groups of several: Kitchen/{Sink, Stove} beside Office/Desk."""
+    if any(len(cover.owners) > 1 for cover in siblings):
+        for cover in siblings:
+            if cover.inner is not None:
+                cover.owners = [cover.inner]
+
+
+def _inner_owner(record: PrimRecord, cover: _Cover, below: list[_Cover]) -> PrimRecord | None:
+    found = [owner for c in below for owner in c.owners]
+    if cover.owners != [record] or len(found) != 1 or found[0].is_gprim or is_unnamed(found[0].name):
+        return None
+    has_other_name = set(words_of(record.name)).isdisjoint(words_of(found[0].name))
+    return found[0] if has_other_name else None
 
 
 def _owners_at(record: PrimRecord, cover: _Cover, below: list[_Cover]) -> list[PrimRecord]:
