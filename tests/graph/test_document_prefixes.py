@@ -2,11 +2,16 @@
 
 from pathlib import Path
 
+import pyoxigraph as ox
 import pytest
 
 from tests.graph.records import build_graph, thing
-from usd2kg.graph import RDF_FORMATS, serialize_graph
+from usd2kg.errors import GraphError
+from usd2kg.graph import RDF_FORMATS, serialize_graph, write_graph
+from usd2kg.grounding.lexical.alignment.alignment_rows import AlignmentRow, RowKind, format_rows, parse_rows
 from usd2kg.ontology import load_tbox
+from usd2kg.query import GraphStore
+from usd2kg.query.graph_file import load_graph
 
 TURTLE = """
 @prefix lab: <https://my.lab/onto#> .
@@ -49,3 +54,46 @@ def test_graphs_and_mappings_use_them(tmp_path: Path):
     # A name of this project keeps its meaning.
     assert "@prefix prov: <http://www.w3.org/ns/prov#> ." in turtle
     assert "unused" not in turtle
+
+
+@pytest.mark.parametrize("ending", [".ttl", ".nt", ".rdf"])
+def test_queries_may_use_them(tmp_path: Path, ending: str):
+    (tmp_path / "lab.ttl").write_text(TURTLE)
+    tbox = load_tbox(tmp_path / "lab.ttl")
+    write_graph(build_graph(tbox, [(thing("/Cup", (0, 0, 0), (1, 1, 1)), "Cup")]), tmp_path / f"graph{ending}")
+    store = load_graph(tmp_path / f"graph{ending}")
+    assert store.sparql("SELECT ?p { ?o a lab:Cup ; u2k:primPath ?p }").rows == (("/Cup",),)
+    assert store.sparql("ASK { ?entity a prov:Entity }").rows == (("true",),)
+    assert store.hints("SELECT * { ?o a lab:Cupp }") == ["lab:Cupp is not in the graph; did you mean lab:Cup?"]
+    with pytest.raises(GraphError, match=r"the prefix unused: is not declared.* lab:,"):
+        store.sparql("ASK { ?o a unused:Cup }")
+
+
+def test_declarations_that_are_no_prefixes_are_left_out():
+    declared = [
+        ("a b", "https://my.lab/"),
+        ("bad", "no iri"),
+        ("u2k", "https://my.lab/"),
+        ("x", "https://z/"),
+        ("x", "https://y/"),
+    ]
+    text = "".join(f'[] sh:prefix "{prefix}" ; sh:namespace "{iri}"^^xsd:anyURI .\n' for prefix, iri in declared)
+    head = "@prefix sh: <http://www.w3.org/ns/shacl#> . @prefix xsd: <http://www.w3.org/2001/XMLSchema#> .\n"
+    triples = [quad.triple for quad in ox.parse(head + text, format=ox.RdfFormat.TURTLE)]
+    prefixes = GraphStore.from_triples(triples, "test").dataset.prefixes
+    assert prefixes.keys() & {"a b", "bad", "u2k", "x"} == {"u2k", "x"}
+    assert (prefixes["x"], prefixes["u2k"]) == ("https://y/", "https://w3id.org/usd2kg#")
+
+
+def test_alignments_use_them(tmp_path: Path):
+    (tmp_path / "lab.ttl").write_text(TURTLE)
+    tbox = load_tbox(tmp_path / "lab.ttl")
+    row = AlignmentRow(
+        RowKind.CONCEPT, "http://wordnet-rdf.princeton.edu/id/03151500-n", "https://my.lab/onto#Cup", 1.0, label="cup"
+    )
+    text = format_rows([row], tbox)
+    assert '#  lab: "https://my.lab/onto#"' in text
+    assert "\tlab:Cup\t" in text
+    # A person adds a row for a class whose prefix the header does not declare.
+    text = "\n".join(line for line in text.splitlines() if not line.startswith("#  lab:")) + "\n"
+    assert [read.class_iri for read in parse_rows(tmp_path / "edits.tsv", text, tbox)[2]] == ["https://my.lab/onto#Cup"]

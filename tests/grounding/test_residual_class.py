@@ -41,8 +41,10 @@ def test_residue_is_the_category_that_a_label_covers_the_rest_of(label: str, res
     [
         ("Chair\nTable", None),
         ("Furniture\n  Chair\n  Table\nTool", None),
-        # The only root is true of everything in the scope.
-        ("Furniture\n  Chair\n  Table", "Furniture"),
+        # The only root: true of its kinds alone, or of anything.
+        ("Furniture\n  Chair\n  Table", None),
+        ("Vehicle\n  Car\n  Truck\n    Forklift", None),
+        ("Component\n  Pump\n  Valve", "Component"),
         ("Artifact\n  Chair\nPerson", "Artifact"),
         ("StockItem\n  Chair\nPerson", "StockItem"),
         # A word that no dictionary has may mean anything.

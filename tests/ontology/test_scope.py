@@ -63,6 +63,13 @@ def test_a_flat_list_of_classes_is_in_scope(load):
     assert parents(load(":Cup a owl:Class . :Mug a rdfs:Class . :has a owl:ObjectProperty .")) == {"Cup": (), "Mug": ()}
 
 
+def test_a_class_of_objects_in_general_needs_no_subclasses(load):
+    text = ":Storey rdfs:subClassOf :Zone . :Element a owl:Class . :Interface a owl:Class . other:Item a owl:Class ."
+    tbox = load("@prefix other: <http://example.com/other#> . " + text)
+    assert parents(tbox) == {"Element": (), "Storey": ("Zone",), "Zone": ()}
+    assert [iri.rpartition("#")[2] for iri in tbox.isolated] == ["Interface", "Item"]
+
+
 def test_top_classes_are_not_parents(load):
     assert parents(load(":Cup rdfs:subClassOf owl:Thing, :Crockery . :Pan rdfs:subClassOf rdfs:Resource .")) == {
         "Cup": ("Crockery",),
@@ -93,6 +100,11 @@ def test_roots_include_their_subclasses(load):
 
 def test_roots_may_be_curies(load):
     assert list(parents(load(TREE, roots=["dul:DesignedArtifact"]))) == ["Crockery", "Cup", "Mug", "DesignedArtifact"]
+
+
+def test_roots_may_have_prefixes_of_the_file(load):
+    tbox = load("@prefix my: <http://example.com/home#> . " + TREE, roots=["my:Cup"])
+    assert parents(tbox) == {"Cup": (), "Mug": ("Cup",)}
 
 
 def test_roots_exclude_deprecated_subclasses(load):

@@ -63,4 +63,4 @@ def test_graphs_and_the_endpoint_refuse_deep_queries():
     with pytest.raises(GraphError, match="brackets are nested"):
         GraphStore(Dataset(ox.Store()), "here").sparql(REFUSED["groups"])
     with pytest.raises(GraphError, match="brackets are nested"):
-        answer(ox.Store(), {}, {"query": REFUSED["groups"], "accept": "*/*"}, EndpointLimits())
+        answer(Dataset(ox.Store()), {}, {"query": REFUSED["groups"], "accept": "*/*"}, EndpointLimits())

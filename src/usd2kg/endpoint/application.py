@@ -61,6 +61,7 @@ def make_app(
     files: Mapping[str, AppFile],
     title: str,
     graphs: Iterable[str],
+    prefixes: Mapping[str, str] = QUERY_PREFIXES,
     examples: Iterable[ExampleQuery],
     when_ready: Callable[[], None] = lambda: None,
     hosts: Iterable[str] = (),
@@ -75,6 +76,7 @@ def make_app(
         files: the query page by URL path; without files, `/` explains how to build it.
         title: heading of the page.
         graphs: IRIs of the named graphs.
+        prefixes: prefixes that are predefined in queries.
         examples: example queries on the page.
         when_ready: called once all workers have started.
         hosts: host names to accept in addition to localhost and IP addresses.
@@ -84,7 +86,7 @@ def make_app(
         "title": title,
         "graphs": list(graphs),
         "limits": asdict(limits),
-        "prefixes": QUERY_PREFIXES,
+        "prefixes": dict(prefixes),
         "examples": [asdict(example) for example in examples],
     }
 

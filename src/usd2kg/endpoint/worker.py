@@ -20,7 +20,7 @@ from usd2kg.endpoint.result_formats import GRAPH_TYPES, TABLE_TYPES, Rendered, r
 from usd2kg.errors import GraphError, one_line
 from usd2kg.query.bodies import BodyIndex
 from usd2kg.query.complexity import check_complexity
-from usd2kg.query.dataset import QUERY_PREFIXES, Dataset
+from usd2kg.query.dataset import Dataset
 from usd2kg.query.dataset_clause import names_dataset
 from usd2kg.query.functions import make_functions
 from usd2kg.query.remote_clauses import REMOTE_QUERY, has_remote_clause
@@ -50,7 +50,7 @@ def serve_requests(dataset: Dataset, limits: EndpointLimits, requests: BinaryIO,
     for line in requests:
         _terminate_after(limits.seconds + limits.orphan_grace_s)
         try:
-            media_type, rendered = answer(dataset.store, functions, json.loads(line), limits)
+            media_type, rendered = answer(dataset, functions, json.loads(line), limits)
         except NotAcceptableError as error:
             _write(answers, {"status": 406}, str(error).encode())
         except GraphError as error:
@@ -61,7 +61,7 @@ def serve_requests(dataset: Dataset, limits: EndpointLimits, requests: BinaryIO,
         _terminate_after(0)
 
 
-def answer(store: ox.Store, functions: Any, request: dict[str, Any], limits: EndpointLimits) -> tuple[str, Rendered]:
+def answer(dataset: Dataset, functions: Any, request: dict[str, Any], limits: EndpointLimits) -> tuple[str, Rendered]:
     """Return the media type and the results of a request with query, accept, default_graphs and named_graphs.
 
     Raises:
@@ -72,14 +72,16 @@ def answer(store: ox.Store, functions: Any, request: dict[str, Any], limits: End
     if has_remote_clause(request["query"]):
         raise GraphError(REMOTE_QUERY)
     try:
-        found = store.query(request["query"], prefixes=QUERY_PREFIXES, custom_functions=functions, **_dataset(request))
+        found = dataset.store.query(
+            request["query"], prefixes=dataset.prefixes, custom_functions=functions, **_dataset(request)
+        )
         offered = GRAPH_TYPES if isinstance(found, ox.QueryTriples) else TABLE_TYPES
         media_type = negotiate(request["accept"], offered)
         if media_type is None:
             raise NotAcceptableError(f"{request['accept']} cannot be written; expected one of {', '.join(offered)}")
         return media_type, render(found, media_type, limits)
     except SyntaxError as error:
-        raise GraphError(describe_syntax_error(request["query"], error)) from error
+        raise GraphError(describe_syntax_error(request["query"], error, dataset.prefixes)) from error
     except ValueError as error:
         raise GraphError(f"query: not valid ({one_line(error)}); expected IRIs of graphs") from error
     except (RuntimeError, OSError) as error:

@@ -23,6 +23,7 @@ from usd2kg.graph.packed_triples import PackedTriples
 from usd2kg.graph.physical_properties import declare_individual
 from usd2kg.graph.profiles import Profile, plain_profile, soma_profile, uses_soma
 from usd2kg.graph.provenance import (
+    declare_prefixes,
     describe_ontology,
     describe_origin,
     describe_run,
@@ -225,6 +226,7 @@ class _GraphBuilder:
         yield from describe_run(self.run, self.grounding, used, self.software, self.time)
         yield from describe_software(self.software, self.grounding.tool_version)
         yield from describe_ontology(self.ontology, self.tbox)
+        yield from declare_prefixes(self.graph, self.base, self.tbox)
 
     def _members(self) -> Iterator[Triple]:
         yield from declare_individual(self.stage, self.profile.stage_class)

@@ -14,6 +14,7 @@ from usd2kg.graph.vocabulary import (
     PROV,
     RDF,
     RDFS,
+    SHACL,
     SKOS,
     SOMA,
     SSSOM,
@@ -67,6 +68,7 @@ _EXTERNAL_TERMS: dict[ox.NamedNode, dict[Namespace, str]] = {
         SSSOM: "confidence mapping_justification reviewer_id reviewer_label",
         SKOS: "altLabel broader prefLabel",
         DCTERMS: "identifier source",
+        SHACL: "declare namespace prefix",
     },
 }
 """Entity type → namespace → local names of the external terms that graphs use."""

@@ -11,8 +11,4 @@ def document_prefixes(tbox: TBox) -> dict[str, str]:
 
     The prefixes of this project take precedence over those of an ontology.
     """
-    taken = set(PREFIXES.values())
-    own = {
-        name: namespace for name, namespace in tbox.prefixes.items() if name not in PREFIXES and namespace not in taken
-    }
-    return {**own, **PREFIXES}
+    return {**tbox.prefixes_beside(PREFIXES), **PREFIXES}

@@ -7,13 +7,33 @@ from pathlib import Path
 import pyoxigraph as ox
 
 from usd2kg.convert import Origin
+from usd2kg.graph.iris import individual_iri
 from usd2kg.graph.physical_properties import declare_individual
-from usd2kg.graph.vocabulary import PROV, RDF, RDFS, U2K, XSD, Triple, named_node, number, text
+from usd2kg.graph.vocabulary import (
+    PREFIXES,
+    PROV,
+    RDF,
+    RDFS,
+    SHACL,
+    U2K,
+    XSD,
+    Triple,
+    named_node,
+    number,
+    text,
+)
 from usd2kg.grounding import Grounding
 from usd2kg.ontology import TBox
 from usd2kg.scene import Scene
 
-__all__ = ["describe_ontology", "describe_origin", "describe_run", "describe_scene", "describe_software"]
+__all__ = [
+    "declare_prefixes",
+    "describe_ontology",
+    "describe_origin",
+    "describe_run",
+    "describe_scene",
+    "describe_software",
+]
 
 
 def describe_run(
@@ -54,6 +74,15 @@ def describe_ontology(ontology: ox.NamedNode, tbox: TBox) -> Iterator[Triple]:
         if node is not None:
             yield ontology, U2K[name], node
     yield ontology, U2K.contentHash, text(tbox.content_hash)
+
+
+def declare_prefixes(graph: ox.NamedNode, base: str, tbox: TBox) -> Iterator[Triple]:
+    """Yield the prefixes of the user's ontology (SHACL, section 5.2.1), so that queries may use them."""
+    for prefix, namespace in tbox.prefixes_beside(PREFIXES).items():
+        node = ox.NamedNode(individual_iri(base, "/", f"prefix-{prefix}"))
+        yield graph, SHACL.declare, node
+        yield node, SHACL.prefix, text(prefix)
+        yield node, SHACL["namespace"], ox.Literal(namespace, datatype=XSD.anyURI)
 
 
 def describe_scene(stage: ox.NamedNode, scene: Scene) -> Iterator[Triple]:

@@ -138,12 +138,12 @@ def _scope(
     classes: Iterable[str] | None,
 ) -> set[str]:
     if classes is not None:
-        scope = {expand_curie(iri) for iri in classes}
+        scope = {expand_curie(iri, own.prefixes) for iri in classes}
         unknown = sorted(scope - closure.classes)
         if unknown:
             raise OntologyError(f"{name}: <{unknown[0]}> is not a class of the ontology; check the list of classes")
     elif roots is not None:
-        scope = rooted_scope([expand_curie(iri) for iri in roots], closure)
+        scope = rooted_scope([expand_curie(iri, own.prefixes) for iri in roots], closure)
     else:
         scope = default_scope(own, closure)
     if not scope:

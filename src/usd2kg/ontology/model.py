@@ -86,6 +86,11 @@ class TBox:
     isolated: tuple[ClassIRI, ...] = ()
     """Classes of the file without any subclass axiom, which the default scope excludes; empty for other scopes."""
 
+    def prefixes_beside(self, known: Mapping[str, str]) -> dict[str, str]:
+        """Return the prefixes of this ontology, except names and namespaces of known prefixes."""
+        taken = set(known.values())
+        return {name: iri for name, iri in self.prefixes.items() if name not in known and iri not in taken}
+
     def __hash__(self) -> int:
         # TBoxes are cache keys; hashing every class would take a millisecond.
         return hash((self.source, self.content_hash, len(self.classes)))
@@ -165,7 +170,7 @@ class TBox:
             OntologyError: no class in scope has that name, or several have.
         """
         name = name.strip().removeprefix("<").removesuffix(">")
-        for candidate in (name, expand_curie(name)):
+        for candidate in (name, expand_curie(name, self.prefixes)):
             if candidate in self.by_iri:
                 return candidate
             if candidate in self._iri_by_equivalent:

@@ -1,5 +1,7 @@
 """CURIEs with well-known prefixes."""
 
+from collections.abc import Mapping
+
 from usd2kg.ontology import namespaces
 
 __all__ = ["PREFIXES", "compact_iri", "expand_curie"]
@@ -21,14 +23,14 @@ PREFIXES = {
 }
 
 
-def expand_curie(curie: str) -> str:
-    """Return the IRI of a CURIE; text without a known prefix is returned unchanged.
+def expand_curie(curie: str, declared: Mapping[str, str] | None = None) -> str:
+    """Return the IRI of a CURIE, by the prefixes of this project or of a file; other text is returned unchanged.
 
     >>> expand_curie("soma:Cup")
     'http://www.ease-crc.org/ont/SOMA.owl#Cup'
     """
     prefix, colon, local = curie.partition(":")
-    namespace = PREFIXES.get(prefix.lower()) if colon else None
+    namespace = (PREFIXES.get(prefix.lower()) or (declared or {}).get(prefix)) if colon else None
     return namespace + local if namespace else curie
 
 

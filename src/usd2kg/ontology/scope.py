@@ -9,12 +9,15 @@ from collections import defaultdict
 from collections.abc import Iterable, Mapping
 
 from usd2kg.errors import OntologyError
+from usd2kg.knowledge import word_set
 from usd2kg.ontology.class_axioms import TOP_CLASSES, ClassAxioms
 from usd2kg.ontology.components import find_components, reachable
+from usd2kg.ontology.model import local_name
 from usd2kg.ontology.namespaces import DUL, OBO
 
 __all__ = ["ancestors", "default_scope", "isolated_classes", "nearest_parents", "rooted_scope"]
 
+_GENERAL_NOUNS = word_set("lexical", "general_nouns")
 PHYSICAL_ROOTS = (
     f"{DUL}PhysicalObject",
     f"{OBO}BFO_0000040",  # material entity
@@ -34,7 +37,7 @@ def default_scope(own: ClassAxioms, closure: ClassAxioms) -> set[str]:
     If none is below a class of `PHYSICAL_ROOTS`, all are kept.
     """
     # A flat list of classes has no subclass axioms.
-    placed = (own.linked() or own.classes) | set(own.equivalents)
+    placed = (own.linked() or own.classes) | set(own.equivalents) | _general_classes(own)
     placed = {iri for iri in placed if not closure.annotations[iri].is_deprecated}
     superclasses = closure.superclasses()
     subclasses = _invert(superclasses)
@@ -45,6 +48,19 @@ def default_scope(own: ClassAxioms, closure: ClassAxioms) -> set[str]:
     return placed & physical or placed
 
 
+def _general_classes(own: ClassAxioms) -> set[str]:
+    """Return the classes of objects in general (`bot:Element`) in a namespace of the hierarchy.
+
+    They cover what no other class does, and have no subclasses where these are left to other ontologies.
+    """
+    namespaces = {iri.removesuffix(local_name(iri)) for iri in own.linked()}
+    return {
+        iri
+        for iri in own.declared - own.linked()
+        if local_name(iri).lower() in _GENERAL_NOUNS and iri.removesuffix(local_name(iri)) in namespaces
+    }
+
+
 def isolated_classes(own: ClassAxioms, closure: ClassAxioms) -> set[str]:
     """Return the classes that `default_scope` excludes because no document of the closure places them.
 
@@ -52,7 +68,9 @@ def isolated_classes(own: ClassAxioms, closure: ClassAxioms) -> set[str]:
     """
     if not own.linked():
         return set()
-    placed = own.linked().union(own.equivalents, closure.superclasses(), *closure.dispositions.values())
+    placed = own.linked().union(
+        own.equivalents, _general_classes(own), closure.superclasses(), *closure.dispositions.values()
+    )
     isolated = own.classes - placed - TOP_CLASSES
     return {iri for iri in isolated if not closure.annotations[iri].is_deprecated}
 

@@ -3,20 +3,30 @@
 import re
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
+from functools import cached_property
 from pathlib import Path
 from typing import Any
 
 import pyoxigraph as ox
 
-from usd2kg.graph.vocabulary import PREFIXES
+from usd2kg.graph.vocabulary import PREFIXES, SHACL, named_node
 from usd2kg.query.dataset_clause import names_dataset
 
-__all__ = ["FUNCTION_NAMESPACE", "INDEX_NAME", "QUERY_PREFIXES", "Dataset", "term_list", "with_prefixes"]
+__all__ = [
+    "FUNCTION_NAMESPACE",
+    "INDEX_NAME",
+    "QUERY_PREFIXES",
+    "Dataset",
+    "declared_prefixes",
+    "term_list",
+    "with_prefixes",
+]
 
 FUNCTION_NAMESPACE = "https://w3id.org/usd2kg/function#"
 """Prefix `u2kf:` in queries."""
 QUERY_PREFIXES = {**PREFIXES, "u2kf": FUNCTION_NAMESPACE}
 """Prefixes that are predefined in queries."""
+_PREFIX_NAME = re.compile(r"[A-Za-z][\w-]*", re.ASCII)
 INDEX_NAME = "index"
 """Subfolder of `Dataset.folder` with the files of the engine."""
 
@@ -31,6 +41,20 @@ def with_prefixes(sparql: str) -> str:
     declared = {name.lower() for name in re.findall(r"PREFIX\s+([\w-]*)\s*:", sparql, flags=re.IGNORECASE)}
     used = [n for n in QUERY_PREFIXES if n not in declared and re.search(rf"(?<![\w-]){n}:", sparql)]
     return "".join(f"PREFIX {name}: <{QUERY_PREFIXES[name]}>\n" for name in used) + sparql.strip()
+
+
+def declared_prefixes(store: ox.Store) -> dict[str, str]:
+    """Return the prefixes that queries on a store may use: those of the package, and those that its graphs declare."""
+    own: dict[str, str] = {}
+    for named in store.quads_for_pattern(None, SHACL.prefix, None, None):
+        for placed in store.quads_for_pattern(named.subject, SHACL["namespace"], None, named.graph_name):
+            if not (isinstance(named.object, ox.Literal) and isinstance(placed.object, ox.Literal)):
+                continue
+            prefix, namespace = named.object.value, placed.object.value
+            if _PREFIX_NAME.fullmatch(prefix) and named_node(namespace) is not None:
+                # Scenes with other ontologies may use the same prefix; the order in the store is arbitrary.
+                own[prefix] = min(own.get(prefix, namespace), namespace)
+    return {**own, **QUERY_PREFIXES}
 
 
 def term_list(nodes: Iterable[ox.NamedNode]) -> str:
@@ -57,6 +81,11 @@ class Dataset:
         """The files of the engine; None in memory and for a store of the user."""
         index = None if self.folder is None else self.folder / INDEX_NAME
         return index if index is not None and index.is_dir() else None
+
+    @cached_property
+    def prefixes(self) -> dict[str, str]:
+        """The predefined prefixes, and those that the graphs declare for the user's ontology."""
+        return declared_prefixes(self.store)
 
     def __len__(self) -> int:
         """Return the number of triples; those of several graphs count each time."""
@@ -95,7 +124,7 @@ class Dataset:
             yield from self.store.quads_for_pattern(subject, predicate, value, graph)
 
     def query(self, sparql: str, **options: Any) -> ox.QuerySolutions | ox.QueryBoolean | ox.QueryTriples:
-        """Return the result of a query; the package's prefixes are predefined.
+        """Return the result of a query; the prefixes of the package and of the graphs are predefined.
 
         FROM and FROM NAMED choose among all graphs of the store.
 
@@ -103,7 +132,7 @@ class Dataset:
             sparql: the query.
             options: further arguments of `pyoxigraph.Store.query`.
         """
-        return self.store.query(sparql, prefixes=QUERY_PREFIXES, **self._graphs_of(sparql), **options)
+        return self.store.query(sparql, prefixes=self.prefixes, **self._graphs_of(sparql), **options)
 
     def _graphs_of(self, sparql: str) -> Mapping[str, Any]:
         # The engine ignores FROM and FROM NAMED where a dataset is passed with the query.

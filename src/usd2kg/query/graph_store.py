@@ -155,7 +155,7 @@ class GraphStore:
         try:
             found = self._dataset.query(query, custom_functions=self._functions)
         except SyntaxError as error:
-            raise GraphError(describe_syntax_error(query, error)) from error
+            raise GraphError(describe_syntax_error(query, error, self._dataset.prefixes)) from error
         except RuntimeError as error:
             raise GraphError(f"query: cannot be answered ({one_line(error)})") from error
         if isinstance(found, ox.QueryBoolean):

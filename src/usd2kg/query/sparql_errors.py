@@ -1,7 +1,7 @@
 """Messages for SPARQL that does not parse, and for names that the graph does not have."""
 
 import re
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 
 import pyoxigraph as ox
 from rapidfuzz import fuzz, process
@@ -28,8 +28,10 @@ _MOST_EXPECTED = 9
 """Longer lists of what the engine expected help nobody."""
 
 
-def describe_syntax_error(query: str, error: SyntaxError) -> str:
+def describe_syntax_error(query: str, error: SyntaxError, prefixes: Mapping[str, str] = QUERY_PREFIXES) -> str:
     """Return one line: where the query does not parse, what is there, and what was expected.
+
+    Predefined are the given prefixes.
 
     >>> try:
     ...     ox.Store().query("SELECT * { ?s foo:bar ?o }")
@@ -48,8 +50,8 @@ def describe_syntax_error(query: str, error: SyntaxError) -> str:
     if word.upper() not in _FORMS:
         shown = repr(word or query[begin : begin + _SHOWN].strip())
         return f"query: begins with {shown}; expected {_join(_FORMS)}"
-    for prefix, at in _undeclared(query):
-        known = ", ".join(f"{name}:" for name in sorted(QUERY_PREFIXES))
+    for prefix, at in _undeclared(query, prefixes):
+        known = ", ".join(f"{name}:" for name in sorted(prefixes))
         return (
             f"query: not valid SPARQL at {_place(query, at)}: the prefix {prefix}: is not declared; expected PREFIX "
             f"{prefix}: <…> before the query, or one of {known}"
@@ -74,13 +76,13 @@ def _expected(text: str) -> str:
     return f"; expected one of {' '.join(tokens)}" if 0 < len(tokens) <= _MOST_EXPECTED else ""
 
 
-def _undeclared(query: str) -> Iterator[tuple[str, int]]:
+def _undeclared(query: str, prefixes: Mapping[str, str]) -> Iterator[tuple[str, int]]:
     """Yield the prefixes that are used and neither declared nor predefined, each with its offset."""
     text = _NOT_NAMES.sub(lambda found: " " * len(found[0]), query)
     declared = {name for name, _ in re.findall(r"PREFIX\s+([\w-]*)(\s*):", text, re.IGNORECASE)}
     for found in _NAME.finditer(text):
         prefix = found[1] or ""
-        if prefix != "_" and prefix not in declared and prefix not in QUERY_PREFIXES:
+        if prefix != "_" and prefix not in declared and prefix not in prefixes:
             yield prefix, found.start()
 
 
@@ -89,9 +91,9 @@ def unknown_names(query: str, dataset: Dataset) -> list[str]:
     text = _NOT_NAMES.sub(lambda found: " " * len(found[0]), query)
     hints = []
     for prefix, local in dict.fromkeys(_NAME.findall(text)):
-        if prefix in {"", "u2kf", "xsd"} or prefix not in QUERY_PREFIXES or not local:
+        if prefix in {"", "u2kf", "xsd"} or prefix not in dataset.prefixes or not local:
             continue
-        if _occurs(ox.NamedNode(QUERY_PREFIXES[prefix] + local), dataset.store):
+        if _occurs(ox.NamedNode(dataset.prefixes[prefix] + local), dataset.store):
             continue
         similar = process.extractOne(
             f"{prefix}:{local}",
@@ -125,7 +127,7 @@ def _declared_names(dataset: Dataset) -> list[str]:
     for (node,) in dataset.select(query):
         iri = str(node.value)
         names += [
-            f"{prefix}:{iri.removeprefix(base)}" for prefix, base in QUERY_PREFIXES.items() if iri.startswith(base)
+            f"{prefix}:{iri.removeprefix(base)}" for prefix, base in dataset.prefixes.items() if iri.startswith(base)
         ]
     return sorted(names)
 

@@ -228,7 +228,7 @@ class _Cover:
     owners: list[PrimRecord] = field(default_factory=list)
     """The prims that own them."""
     inner: PrimRecord | None = None
-    """The only owner below the prim, of another name, which the prim replaces unless it is a group as its siblings are."""
+    """The only owner below the prim, of another name; the prim replaces it unless it is a group as its siblings are."""
 
 
 def _geometry_owners(root: PrimRecord, candidates: dict[str, str]) -> dict[str, str]:

@@ -107,7 +107,7 @@ def format_rows(rows: Sequence[AlignmentRow], tbox: TBox, default: ClassIRI | No
         tbox: the classes.
         default: the class of objects without a more specific one; None for a file that only changes an alignment.
     """
-    curies = Curies(_PREFIXES, used=("semapv", "skos", "sssom", "u2k", "wn", "xsd"))
+    curies = Curies(_prefixes(tbox), used=("semapv", "skos", "sssom", "u2k", "wn", "xsd"))
     cells = [_cells_of(row, tbox, curies) for row in rows]
     header = {
         "mapping_set_id": f"https://w3id.org/usd2kg/alignment/{tbox.content_hash.removeprefix('sha256:')}",
@@ -123,6 +123,10 @@ def format_rows(rows: Sequence[AlignmentRow], tbox: TBox, default: ClassIRI | No
         **({} if default is None else {"default_class": curies.shorten(written_class(default))}),
     }
     return format_sssom_file(header, curies, _EXTENSIONS, _COLUMNS, cells)
+
+
+def _prefixes(tbox: TBox) -> dict[str, str]:
+    return {**tbox.prefixes_beside(_PREFIXES), **_PREFIXES}
 
 
 def written_class(iri: ClassIRI) -> str:
@@ -172,7 +176,7 @@ def parse_rows(path: Path, text: str, tbox: TBox) -> tuple[ClassIRI | None, str,
         GroundingError: the file is malformed, a class is not in scope, or a subject has two classes; the message has
             the line.
     """
-    file = read_sssom_file(path, text, _REQUIRED, _EXPECTED, _PREFIXES)
+    file = read_sssom_file(path, text, _REQUIRED, _EXPECTED, _prefixes(tbox))
     default = None
     if named := file.slots.get("default_class"):
         lines = enumerate(text.splitlines(), start=1)

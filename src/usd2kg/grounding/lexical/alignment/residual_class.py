@@ -98,15 +98,27 @@ def _most_general_root(tbox: TBox, taxonomy: Taxonomy) -> ClassIRI | None:
     made_below = Counter(iri for cls in tbox.classes if is_made(cls.label) for iri in tbox.closure(cls.iri))
 
     def head(root: ClassIRI) -> str:
-        words = words_of_label(tbox.by_iri[root].label) or words_of_label(tbox.by_iri[root].local_name) or [""]
+        cls = tbox.by_iri[root]
+        words = words_of_label(cls.label) or words_of_label(cls.local_name) or [""]
         return taxonomy.singular(words[-1])
 
     best = min(tbox.roots, key=lambda root: (head(root) not in GENERAL_NOUNS, -made_below[root], -below[root], root))
-    if len(tbox.roots) > 1 and head(best) not in GENERAL_NOUNS and _is_specific(head(best), taxonomy):
+    # The single root of kinds of vehicles is a class of vehicles; one of pumps and valves may be named Component.
+    is_specific = head(best) not in GENERAL_NOUNS and _is_specific(head(best), taxonomy)
+    if is_specific and (len(tbox.roots) > 1 or _are_kinds_of_root(tbox, best, head(best), taxonomy)):
         return None
     label = "".join(words_of_label(tbox.by_iri[best].label))
     negated = {prefix + label for prefix in _NEGATIONS if label}
     return next((root for root in tbox.roots if "".join(words_of_label(tbox.by_iri[root].label)) in negated), best)
+
+
+def _are_kinds_of_root(tbox: TBox, root: ClassIRI, noun: str, taxonomy: Taxonomy) -> bool:
+    """Return whether most classes below a root, by their labels, are kinds of its noun."""
+    meant = {sense.synset for sense in taxonomy.senses(noun)}
+    nouns = (taxonomy.singular(head_noun_of(cls.label)) for cls in tbox.classes if cls.iri != root)
+    usual = [sense for sense in (usual_sense(each, taxonomy) for each in nouns) if sense is not None]
+    kinds = [sense for sense in usual if not meant.isdisjoint(up for up, _ in taxonomy.walk_up(sense.synset))]
+    return 2 * len(kinds) > len(usual)
 
 
 def _is_specific(noun: str, taxonomy: Taxonomy) -> bool:
