@@ -7,19 +7,17 @@ import numpy as np
 
 from usd2kg.assistant.answers import Answers, Handler
 from usd2kg.assistant.interpreted_answer import InterpretedAnswer
-from usd2kg.assistant.sentences import begin_sentence, join_few, yes_or_no
+from usd2kg.assistant.sentences import begin_sentence, join_few, plural, yes_or_no
 from usd2kg.errors import GraphError
 from usd2kg.query.body_table import Body
 from usd2kg.query.lookup import Things
 from usd2kg.query.lookup.amounts import read_amount
+from usd2kg.query.lookup.body_measures import nearest_of
 from usd2kg.query.lookup.related_things import find_parts, find_related
 
 __all__ = ["DistanceAnswers"]
 
-
 _NEAREST = re.compile(r"^(the )?(nearest|closest) ", re.IGNORECASE)
-
-
 _END = re.compile(r"(the )?(?P<end>bottom|underside|lower|top|upper)( edge| side| end| rim)? of ", re.IGNORECASE)
 
 
@@ -74,12 +72,13 @@ class DistanceAnswers(Answers):
             return InterpretedAnswer(understood, facts.table(()), sentence=f"{begin_sentence(what.absence)}.")
         if not gaps:
             raise GraphError(f"not known: the graph has no boxes for {what.text} or for {anchors.text}")
-        nearest = min(gaps, key=lambda iri: (gaps[iri], facts.path(iri)))
+        nearest = facts.sorted(nearest_of(gaps))
+        kind, verb = (what.text, "is") if len(nearest) == 1 else (plural(what.text), "are")
         sentence = (
-            f"The nearest {what.text} to {self._things.the(anchors)} is {facts.label(nearest)}, "
-            f"{self._text(gaps[nearest], 'm')} away."
+            f"The nearest {kind} to {self._things.the(anchors)} {verb} {join_few([*map(facts.label, nearest)])}, "
+            f"{self._text(min(gaps.values()), 'm')} away."
         )
-        return InterpretedAnswer(understood, facts.table([nearest], gap_m=gaps), sentence=sentence)
+        return InterpretedAnswer(understood, facts.table(nearest, gap_m=gaps), sentence=sentence)
 
     def _passes(self, distance: str, thing: str, other: str) -> InterpretedAnswer:
         """Return whether something of a width has room between two things."""

@@ -9,7 +9,7 @@ from usd2kg.assistant.sentences import begin_sentence, join_few, name_things, sp
 from usd2kg.errors import GraphError
 from usd2kg.knowledge import word_set
 from usd2kg.query.lookup import Things, UnknownWordError
-from usd2kg.query.lookup.body_measures import BodyMeasures
+from usd2kg.query.lookup.body_measures import BodyMeasures, nearest_of
 from usd2kg.query.lookup.directions import find_beside, find_between
 from usd2kg.query.lookup.prepositions import SIDES, is_direct, relation_of
 from usd2kg.query.lookup.related_things import find_above, find_over_covers, find_parts, find_related
@@ -192,10 +192,10 @@ class RelationAnswers(Answers):
     def _nearest_within_reach(self, iris: Sequence[str], anchors: Sequence[str]) -> tuple[list[str], str]:
         """Return the nearest of some things, if it is within reach, and the note that says how far it is."""
         gaps = BodyMeasures(self._facts).gaps((iri for iri in iris if iri not in anchors), anchors)
-        nearest = min(gaps, key=lambda iri: (gaps[iri], self._facts.path(iri)), default=None)
-        if nearest is None or gaps[nearest] > DIRECTIONS.reach:
+        nearest = self._facts.sorted(nearest_of(gaps))
+        if not nearest or gaps[nearest[0]] > DIRECTIONS.reach:
             return [], ""
-        return [nearest], f" ({self._text(gaps[nearest], 'm')} away)"
+        return nearest, f" ({self._text(gaps[nearest[0]], 'm')} away)"
 
     def _fixed_to(self, anchors: Sequence[str], *, with_parts: bool) -> set[str]:
         """Return what is fixed to things or to parts of them, and these parts on request."""

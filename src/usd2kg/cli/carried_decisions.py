@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from usd2kg.cli.options.review import CarryOverOptions
-from usd2kg.cli.output import emit, notify
+from usd2kg.cli.output import count_noun, emit, notify
 
 if TYPE_CHECKING:
     from usd2kg.diff import CarriedDecisions
@@ -17,6 +17,7 @@ if TYPE_CHECKING:
 
 __all__ = ["carry_over_decisions"]
 
+_MAX_LISTED = 3
 _COLUMNS = ("path", "decision", "decided_for", "reason", "reviewer", "comment", "time")
 
 
@@ -25,9 +26,10 @@ def carry_over_decisions(
 ) -> "tuple[Mapping[str, ClassIRI | Decision], Mapping[str, DecisionOrigin]]":
     """Return the decisions for a scene, and the origin of each that was made for another prim path.
 
-    Prints the carried decisions to stderr, and writes the files of the options.
+    Prints the carried decisions and those without an object to stderr, and writes the files of the options.
     """
     if options.previous is None:
+        _report_missing([path for path in decisions if path not in scene.by_path], scene.source)
         return decisions, {}
     from usd2kg.diff import carry_decisions, objects_of_scene  # noqa: PLC0415 - loads OpenUSD, too slow for --help
     from usd2kg.diff.versions import read_objects  # noqa: PLC0415
@@ -49,6 +51,15 @@ def carry_over_decisions(
     if options.carried is not None:
         _write_rows(_placed_rows(found), options.carried)
     return found.decisions, found.carried
+
+
+def _report_missing(paths: list[str], scene: str) -> None:
+    if paths:
+        listed = ", ".join(paths[:_MAX_LISTED]) + ("…" if len(paths) > _MAX_LISTED else "")
+        notify(
+            f"{count_noun(len(paths), 'decision')} not used: no object of {scene} has the path ({listed}); "
+            "--previous OLD carries decisions over to renamed objects"
+        )
 
 
 def _placed_rows(found: "CarriedDecisions") -> list[tuple[str, ...]]:

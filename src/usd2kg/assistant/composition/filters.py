@@ -6,7 +6,7 @@ from usd2kg.assistant.composition.groups import ANY, Filter, Group, Quantity
 from usd2kg.assistant.relation_answers import PREPOSITIONS, RelationAnswers
 from usd2kg.errors import GraphError
 from usd2kg.query.lookup import Nouns, SceneFacts, UnknownWordError
-from usd2kg.query.lookup.body_measures import ELEVATION, MASS, TOP, BodyMeasures, Measure
+from usd2kg.query.lookup.body_measures import ELEVATION, MASS, TOP, BodyMeasures, Measure, nearest_of
 from usd2kg.query.lookup.colors import COLORS, has_color, has_material, is_material, material_words, own_colors
 from usd2kg.query.lookup.directions import find_between
 from usd2kg.query.lookup.openable_things import find_openable
@@ -284,8 +284,7 @@ class Filters:
             gaps = self._bodies.gaps(rivals, anchors)
             if not gaps:
                 raise GraphError(f"not known: the graph has no boxes for {others.text}")
-            best = min(sign * gap for gap in gaps.values())
-            return sorted((iri for iri, gap in gaps.items() if sign * gap == best), key=self._facts.path)[:1]
+            return self._facts.sorted(nearest_of(gaps, sign))
 
         return Filter(choose, others.guesses, others.cost, is_relative=True)
 

@@ -27,7 +27,12 @@ __all__ = [
     "WIDTH",
     "BodyMeasures",
     "Measure",
+    "nearest_of",
 ]
+
+
+_SAME_GAP_M = 0.001
+"""Difference of distances up to which things are equally near."""
 
 
 class Measure(NamedTuple):
@@ -105,6 +110,12 @@ COMPARED = _read_signed(word_map("query", "comparatives"))
 _FLOORS = word_set("query", "floors")
 SAME = 0.005
 """Share of a measure by which two things must differ to be unequal."""
+
+
+def nearest_of(gaps: Mapping[str, float], sign: int = 1) -> list[str]:
+    """Return the things with the least distance, or the largest if the sign is -1: several within a millimetre."""
+    least = min((sign * gap for gap in gaps.values()), default=0.0)
+    return [iri for iri, gap in gaps.items() if sign * gap <= least + _SAME_GAP_M]
 
 
 class BodyMeasures:

@@ -6,7 +6,15 @@ from collections.abc import Callable, Iterable, Iterator
 from usd2kg.errors import GraphError
 from usd2kg.knowledge import word_map, word_set
 from usd2kg.query.lookup.amounts import is_amount, read_amount
-from usd2kg.query.lookup.body_measures import COMPARED, MEASURES, SIZE, SUPERLATIVES, BodyMeasures, Measure
+from usd2kg.query.lookup.body_measures import (
+    COMPARED,
+    MEASURES,
+    SIZE,
+    SUPERLATIVES,
+    BodyMeasures,
+    Measure,
+    nearest_of,
+)
 from usd2kg.query.lookup.colors import COLORS, has_color, has_material, is_material
 from usd2kg.query.lookup.directions import find_between
 from usd2kg.query.lookup.facts import SceneFacts
@@ -270,8 +278,7 @@ class PhraseModifiers:
             others = [iri for iri in second.iris if iri not in first.iris] or second.iris
             gaps = self._bodies.gaps(first.iris, others)
             sign = -1 if parts is not None and parts["which"] in {"furthest", "farthest"} else 1
-            chosen = min(gaps, key=lambda iri: (sign * gaps[iri], self._facts.path(iri)), default=None)
-            return Things((chosen,) if chosen is not None else (), text)
+            return Things(tuple(self._facts.sorted(nearest_of(gaps, sign))), text)
         return None
 
     def _read_between(self, text: str) -> Things | None:
