@@ -3,7 +3,7 @@
 import pytest
 
 from usd2kg.errors import OntologyError
-from usd2kg.ontology import load_tbox
+from usd2kg.ontology import load_home_tbox, load_tbox
 from usd2kg.ontology.catalog import find_document
 
 CATALOG = '<catalog prefer="public" xmlns="urn:oasis:names:tc:entity:xmlns:xml:catalog">{}</catalog>'
@@ -265,3 +265,30 @@ def test_rejects_catalogs_in_other_encodings(write_turtle, tmp_path):
     home = write_turtle(ontology("http://example.com/home", "http://example.com/upper") + PHYSICAL)
     with pytest.raises(OntologyError, match=r"catalog-v001\.xml: byte 0 is not UTF-8 text, expected a catalog"):
         load_tbox(home)
+
+
+def test_an_import_with_more_classes_is_extended(write_turtle):
+    write_turtle(
+        ontology("http://example.com/shop") + ":Cup rdfs:subClassOf :Ware . :Pan rdfs:subClassOf :Ware .", "shop.ttl"
+    )
+    path = write_turtle(ontology("http://example.com/own", "http://example.com/shop") + ":Mug rdfs:subClassOf :Cup .")
+    assert names(load_tbox(path)) == ["Cup", "Mug", "Pan", "Ware"]
+
+
+def test_an_import_with_fewer_classes_is_a_hierarchy_to_place_classes_in(write_turtle):
+    write_turtle(ontology("http://example.com/upper") + ":Cup rdfs:subClassOf :Ware .", "upper.ttl")
+    text = ":Mug rdfs:subClassOf :Cup . :Beaker rdfs:subClassOf :Mug ."
+    path = write_turtle(ontology("http://example.com/own", "http://example.com/upper") + text)
+    tbox = load_tbox(path)
+    assert names(tbox) == ["Beaker", "Cup", "Mug"]
+
+
+def test_built_in_ontologies_stand_in_for_imports(write_turtle):
+    home = load_home_tbox()
+    tbox = load_tbox(
+        write_turtle(ontology("http://example.com/own", home.ontology_iri) + ":Mug rdfs:subClassOf soma:Cup .")
+    )
+    assert (tbox.notes, tbox.imports) == ((), (home.ontology_iri,))
+    assert len(tbox.classes) == len(home.classes) + 1
+    (mug,) = (cls for cls in tbox.classes if cls.local_name == "Mug")
+    assert mug.parents == (home.resolve("Cup"),)

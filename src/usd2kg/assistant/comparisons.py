@@ -4,7 +4,7 @@ from collections.abc import Mapping
 from itertools import product
 
 from usd2kg.assistant.answers import Answers, Handler
-from usd2kg.assistant.free_places import find_free_places
+from usd2kg.assistant.free_places import PlacedThing, find_free_places, flat_tops, thing_to_place
 from usd2kg.assistant.interpreted_answer import InterpretedAnswer
 from usd2kg.assistant.sentences import (
     begin_sentence,
@@ -189,20 +189,15 @@ class ComparisonAnswers(Answers):
     def _fits(self, other: str, thing: str = "", sides: str = "") -> InterpretedAnswer:
         """Return whether a thing, or a box of some size, has room on others."""
         surfaces, facts = self._nouns.existing(other), self._facts
-        moved: tuple[str, ...] = ()
         if sides:
-            name = f"a box of {sides}"
-            width, depth, height = read_sides(sides)
+            placed = PlacedThing(f"a box of {sides}", read_sides(sides), ())
         else:
-            things = self._nouns.existing(thing)
-            name, moved = things.text, things.iris
-            body = facts.body(things.iris[0])
-            if body.lower is None or body.upper is None:
-                raise GraphError(f"not known: the graph has no box for {things.text}, so its size is unknown")
-            width, depth, height = (float(side) for side in body.upper - body.lower)
-        if not any(iri in facts.supporters for iri in surfaces.iris):
+            placed = thing_to_place(self._nouns, facts, thing)
+        name, (width, depth, _), moved = placed
+        flat = flat_tops(self._nouns)
+        if not any(iri in facts.supporters or iri in flat for iri in surfaces.iris):
             raise GraphError(f"not known: nothing stands on {surfaces.text}, so the height of its top is unknown")
-        places = find_free_places(facts, (width, depth, height), surfaces.iris, moved)
+        places = find_free_places(facts, placed.size, surfaces.iris, moved, flat)
         spots = {place.surface: " ".join(f"{value:g}" for value in place.position) for place in places}
         size = f" ({width:.2f} × {depth:.2f} m)"
         if places:

@@ -1,15 +1,19 @@
 """Free places: where a thing can be put on the level tops of objects."""
 
-from collections.abc import Iterable
+from collections.abc import Container, Iterable
 from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
+from usd2kg.assistant.sentences import count_phrase
 from usd2kg.assistant.settings import PLACING
-from usd2kg.query.lookup import SceneFacts
+from usd2kg.assistant.usual_sizes import usual_size
+from usd2kg.errors import GraphError
+from usd2kg.knowledge import word_set
+from usd2kg.query.lookup import Nouns, SceneFacts
 
-__all__ = ["FreePlace", "find_free_places"]
+__all__ = ["FreePlace", "PlacedThing", "find_free_places", "flat_tops", "thing_to_place"]
 
 
 class FreePlace(NamedTuple):
@@ -23,20 +27,54 @@ class FreePlace(NamedTuple):
     """Share of the surface that other things stand on."""
 
 
+class PlacedThing(NamedTuple):
+    """What is to be put somewhere."""
+
+    text: str
+    size: tuple[float, float, float]
+    """Extents along x, y and z, metres."""
+    moved: tuple[str, ...]
+    """IRIs of the things that it is, which leave their place; empty for one that the scene lacks."""
+
+
+def thing_to_place(nouns: Nouns, facts: SceneFacts, noun: str) -> PlacedThing:
+    """Return what a noun means: the first of its things with a box, else a thing of usual size.
+
+    Raises:
+        GraphError: the size is not known, or “the thing” is not in the scene.
+    """
+    things = nouns.find(noun)
+    is_definite = noun.split(maxsplit=1)[0].lower() in word_set("grammar", "definite")
+    if not (things.iris or is_definite) and (usual := usual_size(things.text)) is not None:
+        return PlacedThing(f"{count_phrase(1, things.text)} of usual size", usual, ())
+    if not things.iris:
+        raise GraphError(things.absence)
+    for body in map(facts.body, things.iris):
+        if body.lower is not None and body.upper is not None:
+            width, depth, height = (float(side) for side in body.upper - body.lower)
+            return PlacedThing(things.text, (width, depth, height), things.iris)
+    raise GraphError(f"not known: the graph has no box for {things.text}, so its size is unknown")
+
+
 def find_free_places(
-    facts: SceneFacts, size: tuple[float, float, float], surfaces: Iterable[str], moved: Iterable[str] = ()
+    facts: SceneFacts,
+    size: tuple[float, float, float],
+    surfaces: Iterable[str],
+    moved: Iterable[str] = (),
+    flat: Container[str] = (),
 ) -> list[FreePlace]:
     """Return the surfaces with a free spot for a thing, the emptiest first.
 
     A surface is level where other things stand on it: the seat of a chair, not its back; the top board of a rack, since
-    what stands on it says nothing of the room below. A spot is free if the box of the thing, with a clearance, meets no
-    other box. The footprint may be turned by a right angle.
+    what stands on it says nothing of the room below. An empty table is level at the top of its box. A spot is free if
+    the box of the thing, with a clearance, meets no other box. The footprint may be turned by a right angle.
 
     Args:
         facts: the scene.
         size: extents of the thing along x, y and z, metres.
         surfaces: IRIs of the objects to try.
         moved: IRIs of things that leave their place.
+        flat: IRIs of objects, such as tables, whose tops are level by what they are.
     """
     table = facts.bodies.table
     rows = {iri: row for row, iri in enumerate(table.iris)}
@@ -46,6 +84,8 @@ def find_free_places(
         row = rows.get(iri)
         bottoms = [table.lower[rows[one], 2] for one in facts.related("on", iri) if one in rows]
         level = _highest_level(bottoms)
+        if row is not None and not bottoms and iri in flat and table.upper[row, 2] <= PLACING.max_flat_top:
+            level = float(table.upper[row, 2])
         if row is None or np.isnan(table.lower[row]).any() or np.isnan(level):
             continue
         bearers = [rows[one] for name in ("on", "part") for one in facts.anchors(name, iri) if one in rows]
@@ -55,6 +95,11 @@ def find_free_places(
                 found.append(FreePlace(iri, spot, _occupied(table.lower, table.upper, row, level)))
                 break
     return sorted(found, key=lambda place: (round(place.occupied, 2), place.surface))
+
+
+def flat_tops(nouns: Nouns) -> set[str]:
+    """Return the things whose tops are level by what they are, such as tables."""
+    return {iri for noun in sorted(word_set("assistant", "flat_tops")) for iri in nouns.known(noun)}
 
 
 def _highest_level(bottoms: list[float]) -> float:

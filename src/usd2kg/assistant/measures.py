@@ -5,11 +5,10 @@ from collections.abc import Mapping
 import numpy as np
 
 from usd2kg.assistant.answers import Answers, Handler
-from usd2kg.assistant.free_places import find_free_places
+from usd2kg.assistant.free_places import find_free_places, flat_tops, thing_to_place
 from usd2kg.assistant.interpreted_answer import InterpretedAnswer
 from usd2kg.assistant.sentences import begin_sentence, join_few, join_words, name_things, yes_or_no
 from usd2kg.assistant.settings import PLACING
-from usd2kg.assistant.usual_sizes import usual_size
 from usd2kg.errors import GraphError
 from usd2kg.grounding import concepts_named
 from usd2kg.knowledge import word_map, word_set
@@ -208,16 +207,8 @@ class MeasureAnswers(Answers):
         return InterpretedAnswer(f"where to {verb}", self._facts.table(things.iris), sentence=sentence, places=places)
 
     def _put(self, thing: str) -> InterpretedAnswer:
-        things, facts = self._nouns.find(thing), self._facts
-        sizes = [facts.body(iri) for iri in things.iris]
-        body = next((one for one in sizes if one.lower is not None), None)
-        is_definite = thing.split(maxsplit=1)[0].lower() in word_set("grammar", "definite")
-        if not (things.iris or is_definite) and (usual := usual_size(things.text)) is not None:
-            return self._free_tops(f"{things.text} of usual size", usual, ())
-        if body is None or body.lower is None or body.upper is None:
-            raise GraphError(f"not known: the graph has no box for {things.text}, so its size is unknown")
-        width, depth, height = (float(side) for side in body.upper - body.lower)
-        return self._free_tops(things.text, (width, depth, height), things.iris)
+        placed = thing_to_place(self._nouns, self._facts, thing)
+        return self._free_tops(placed.text, placed.size, placed.moved)
 
     def _put_size(self, sides: str) -> InterpretedAnswer:
         return self._free_tops(f"a thing of {sides}", read_sides(sides), ())
@@ -228,10 +219,11 @@ class MeasureAnswers(Answers):
         floors = self._nouns.floors
         # What stands on the floor, such as a cart, has its place there.
         is_on_floor = bool(moved) and all(floors.intersection(facts.anchors("on", iri)) for iri in moved)
-        tops = floors if is_on_floor else facts.supporters - floors
+        flat = flat_tops(self._nouns)
+        tops = floors if is_on_floor else (facts.supporters | flat) - floors
         surfaces = [iri for iri in facts.things if iri in tops and iri not in moved]
         usual = {iri for noun in sorted(word_set("assistant", "surface_nouns")) for iri in self._nouns.known(noun)}
-        found = find_free_places(facts, size, surfaces, moved)
+        found = find_free_places(facts, size, surfaces, moved, flat)
         # A seat and a rug are level too, but people put things on tables.
         places = ([place for place in found if place.surface in usual] or found)[: PLACING.max_places]
         if not places and is_on_floor:

@@ -55,6 +55,7 @@ class PlacingSettings(NamedTuple):
     max_places: int
     level: float
     max_height: float
+    max_flat_top: float
 
 
 class OpeningSettings(NamedTuple):

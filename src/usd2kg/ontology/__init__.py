@@ -5,12 +5,13 @@ from typing import TYPE_CHECKING
 from usd2kg.lazy_names import lazy_names
 
 if TYPE_CHECKING:
+    from usd2kg.ontology.built_in import PLACES_IRI
     from usd2kg.ontology.class_axioms import LABELS
     from usd2kg.ontology.closure import Closure, read_closure, without_header
     from usd2kg.ontology.fetch import fetch_ontology
     from usd2kg.ontology.known_ontologies import KnownOntology, read_registry
     from usd2kg.ontology.linearize import linearize_flat, linearize_tree
-    from usd2kg.ontology.load import BUILT_IN_NAMES, PLACES_IRI, load_home_tbox, load_places_tbox, load_tbox
+    from usd2kg.ontology.load import BUILT_IN_NAMES, load_home_tbox, load_places_tbox, load_tbox
     from usd2kg.ontology.model import ClassIRI, OntologyClass, OntologyNote, TBox, local_name
     from usd2kg.ontology.owl_write import write_functional_syntax
     from usd2kg.ontology.prefixes import compact_iri, expand_curie
@@ -45,7 +46,7 @@ __getattr__ = lazy_names(
     {
         "BUILT_IN_NAMES": "load",
         "LABELS": "class_axioms",
-        "PLACES_IRI": "load",
+        "PLACES_IRI": "built_in",
         "ClassIRI": "model",
         "Closure": "closure",
         "KnownOntology": "known_ontologies",

@@ -9,9 +9,9 @@ from typing import Any
 import pyoxigraph as ox
 
 from usd2kg.knowledge import data_file
+from usd2kg.ontology.built_in import BUILT_IN, built_in_document
 from usd2kg.ontology.catalog import find_document
 from usd2kg.ontology.documents import Document, close_imports, parse_document, parse_import, read_triples
-from usd2kg.ontology.load import BUILT_IN
 from usd2kg.ontology.model import TBox
 from usd2kg.ontology.namespaces import OWL, RDF
 
@@ -66,7 +66,7 @@ def _read(path: Path, also: Iterable[str]) -> Closure:
         iri
         for document in documents
         for iri in document.imports
-        if find_document(iri, Path(document.source).parent) is None
+        if find_document(iri, Path(document.source).parent) is None and built_in_document(iri) is None
     }
     triples: list[ox.Triple] = []
     for number, document in enumerate(documents):

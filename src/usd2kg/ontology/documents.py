@@ -1,13 +1,14 @@
 """Ontology documents: parse them and resolve their imports locally."""
 
 import hashlib
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Literal
 
 import pyoxigraph as ox
 
 from usd2kg.errors import OntologyError
+from usd2kg.ontology.built_in import built_in_document
 from usd2kg.ontology.catalog import CATALOG, find_document
 from usd2kg.ontology.class_axioms import ClassAxioms
 from usd2kg.ontology.model import OntologyNote
@@ -103,7 +104,8 @@ def close_imports(document: Document) -> tuple[tuple[Document, ...], tuple[Ontol
     """Return `document` with its transitive imports, and a note for each import that is missing.
 
     Imports are resolved by the OASIS catalog (`catalog-v001.xml`) in the folder of the importing document, then by file
-    name in that folder, then by the IRI that a file there declares. Nothing is fetched from the network.
+    name in that folder, then by the IRI that a file there declares, then by the built-in ontologies. Nothing is fetched
+    from the network.
     """
     found = {document.iri: document}
     if document.version_iri:
@@ -116,12 +118,17 @@ def close_imports(document: Document) -> tuple[tuple[Document, ...], tuple[Ontol
         for iri in current.imports:
             if iri in found or iri in missing:
                 continue
-            path = find_document(iri, Path(current.source).parent)
+            folder = Path(current.source).parent
+            path = find_document(iri, folder)
+            built_in = built_in_document(iri) if path is None else None
+            if built_in is not None:
+                found[iri] = replace(parse_document(built_in), iri=iri)
+                continue
             if path is None:
                 missing.add(iri)
                 notes.append(OntologyNote("missing-import", _missing_import(iri, current)))
                 continue
-            imported = parse_import(path, Path(current.source).parent)
+            imported = parse_import(path, folder)
             # An import may resolve to a document that declares another ontology IRI: register it under both.
             found[iri] = imported
             if imported.iri not in found or imported.iri == iri:

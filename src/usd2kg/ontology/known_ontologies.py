@@ -9,8 +9,8 @@ from typing import Any
 
 from usd2kg.errors import OntologyError
 from usd2kg.knowledge import data_file
+from usd2kg.ontology.built_in import BUILT_IN
 from usd2kg.ontology.catalog import CATALOG
-from usd2kg.ontology.load import BUILT_IN
 
 __all__ = ["KnownDocument", "KnownOntology", "read_registry"]
 

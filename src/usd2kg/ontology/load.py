@@ -2,7 +2,7 @@
 
 import hashlib
 import re
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import replace
 from functools import lru_cache
 from importlib.resources import as_file
@@ -10,6 +10,7 @@ from pathlib import Path
 
 from usd2kg.errors import OntologyError
 from usd2kg.knowledge import data_file
+from usd2kg.ontology.built_in import BUILT_IN, HOME, PLACES, SOMA_HOME
 from usd2kg.ontology.class_axioms import ALT_LABELS, DEFINITIONS, LABELS, ClassAxioms, merge_axioms
 from usd2kg.ontology.components import Components, find_components, reachable
 from usd2kg.ontology.documents import Document, close_imports, parse_document
@@ -20,26 +21,10 @@ from usd2kg.ontology.scope import default_scope, isolated_classes, nearest_paren
 from usd2kg.ontology.wikidata import EQUIVALENT_CLASS, item_in, pick_items
 from usd2kg.tracing import traced
 
-__all__ = [
-    "BUILT_IN",
-    "BUILT_IN_NAMES",
-    "HOME",
-    "PLACES",
-    "PLACES_IRI",
-    "load_home_tbox",
-    "load_places_tbox",
-    "load_tbox",
-]
+__all__ = ["BUILT_IN_NAMES", "load_home_tbox", "load_places_tbox", "load_tbox"]
 
-HOME = "built-in home TBox"
-PLACES = "built-in places TBox"
-BUILT_IN = {HOME: "home.ttl", PLACES: "places.ttl"}
-"""`TBox.source` of a built-in TBox → data file."""
-PLACES_IRI = "https://w3id.org/usd2kg/places"
-"""The built-in ontology of places; its classes have IRIs that begin with this."""
 _PREFIX_NAME = re.compile(r"[A-Za-z][\w-]*", re.ASCII)
 _NO_OTHER: frozenset[str] = frozenset()
-_SOMA_HOME = "http://www.ease-crc.org/ont/SOMA-HOME.owl"
 
 
 @traced("ontology", lambda tbox: {"classes": len(tbox.classes)})
@@ -89,7 +74,7 @@ def _load_built_in(name: str, roots: tuple[str, ...] | None) -> TBox:
     with as_file(data_file(BUILT_IN[name])) as path:
         tbox = _load(path, name, roots, None)
     # The classes of the home TBox are those of SOMA-HOME, so a graph over them imports SOMA-HOME.
-    return replace(tbox, ontology_iri=_SOMA_HOME) if name == HOME else tbox
+    return replace(tbox, ontology_iri=SOMA_HOME) if name == HOME else tbox
 
 
 def _load(path: Path, name: str, roots: Iterable[str] | None, classes: Iterable[str] | None) -> TBox:
@@ -98,7 +83,7 @@ def _load(path: Path, name: str, roots: Iterable[str] | None, classes: Iterable[
     own = document.axioms
     closure = merge_axioms(doc.axioms for doc in documents)
     groups = equivalence_groups(closure)
-    scope = choose_representatives(_scope(name, own, closure, roots, classes), document.iri, own, closure, groups)
+    scope = choose_representatives(_scope(name, documents, closure, roots, classes), document.iri, own, closure, groups)
     superclasses = closure.superclasses()
     parents = nearest_parents(scope, superclasses)
     components = find_components({**dict.fromkeys(scope, ()), **superclasses})
@@ -132,11 +117,12 @@ def _prefixes(own: ClassAxioms, scope: Iterable[str]) -> dict[str, str]:
 
 def _scope(
     name: str,
-    own: ClassAxioms,
+    documents: Sequence[Document],
     closure: ClassAxioms,
     roots: Iterable[str] | None,
     classes: Iterable[str] | None,
 ) -> set[str]:
+    own, *imported = (document.axioms for document in documents)
     if classes is not None:
         scope = {expand_curie(iri, own.prefixes) for iri in classes}
         unknown = sorted(scope - closure.classes)
@@ -145,7 +131,7 @@ def _scope(
     elif roots is not None:
         scope = rooted_scope([expand_curie(iri, own.prefixes) for iri in roots], closure)
     else:
-        scope = default_scope(own, closure)
+        scope = default_scope(own, closure, imported)
     if not scope:
         raise OntologyError(
             f"{name}: no class in scope ({len(closure.classes)} classes found, none placed in a hierarchy); "

@@ -1,8 +1,8 @@
 """Scope: the classes that are candidates for objects.
 
 The default scope holds every class that the given file itself places in the hierarchy (as subclass, superclass or
-equivalent) and that is a physical object. The classes declared in the file would be the wrong set: SOMA-HOME uses
-Appliance, Room and the Designed… classes, which SOMA declares.
+equivalent) and that is a physical object, and those of an import that it extends. The classes declared in the file
+would be the wrong set: SOMA-HOME uses Appliance, Room and the Designed… classes, which SOMA declares.
 """
 
 from collections import defaultdict
@@ -31,21 +31,28 @@ def ancestors(superclasses: Mapping[str, set[str]], iri: str) -> set[str]:
     return reachable(superclasses, [iri]) - {iri}
 
 
-def default_scope(own: ClassAxioms, closure: ClassAxioms) -> set[str]:
+def default_scope(own: ClassAxioms, closure: ClassAxioms, imported: Iterable[ClassAxioms] = ()) -> set[str]:
     """Return the classes that `own` places in the hierarchy and that `closure` classifies as physical objects.
 
-    If none is below a class of `PHYSICAL_ROOTS`, all are kept.
+    If none is below a class of `PHYSICAL_ROOTS`, all are kept. A document that places fewer classes than one that it
+    imports extends that one, whose classes are then in scope, too.
     """
-    # A flat list of classes has no subclass axioms.
-    placed = (own.linked() or own.classes) | set(own.equivalents) | _general_classes(own)
-    placed = {iri for iri in placed if not closure.annotations[iri].is_deprecated}
     superclasses = closure.superclasses()
     subclasses = _invert(superclasses)
     physical: set[str] = set()
     for root in PHYSICAL_ROOTS:
         # Equivalents of a root are as general as the root, and not candidates.
         physical |= reachable(subclasses, [root]) - {root, *ancestors(superclasses, root)}
-    return placed & physical or placed
+    placed = _placed(own, closure)
+    scope = placed & physical or placed
+    others = [_placed(axioms, closure) & physical if physical else _placed(axioms, closure) for axioms in imported]
+    return scope.union(*(classes for classes in others if len(classes) > len(scope)))
+
+
+def _placed(axioms: ClassAxioms, closure: ClassAxioms) -> set[str]:
+    # A flat list of classes has no subclass axioms.
+    placed = (axioms.linked() or axioms.classes) | set(axioms.equivalents) | _general_classes(axioms)
+    return {iri for iri in placed if not closure.annotations[iri].is_deprecated}
 
 
 def _general_classes(own: ClassAxioms) -> set[str]:
