@@ -99,6 +99,8 @@ SHAPES = [
     Break("color-shared", "soma", added("k:Fork usd:hasColor k:c . k:Cup usd:hasColor k:c")),
     Break("relation-anchor", "soma", added("k:Floor soma:isOntopOf k:Ghost")),
     Break("relation-anchor", "plain", added("k:Floor u2k:on k:Ghost")),
+    Break("room-anchor", "soma", added("k:Floor u2k:inRoom k:Ghost")),
+    Break("room-anchor", "plain", added("k:Floor u2k:inRoom k:Ghost")),
     Break("joint-limits", "soma", replaced("<JOINT-limit>", "soma:hasJointPositionMin", "2.0")),
     Break("joint-limits", "plain", replaced("<JOINT>", "u2k:lowerLimit", "2.0")),
 ]  # fmt: skip
