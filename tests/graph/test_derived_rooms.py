@@ -9,6 +9,8 @@ from tests.relations.test_derived_rooms import BED, FLAT, SOFA
 from usd2kg.graph import KnowledgeGraph, instantiate
 from usd2kg.graph.vocabulary import PROV, RDF, RDFS, SSSOM, U2K
 from usd2kg.ontology import TBox, load_home_tbox
+from usd2kg.query import GraphStore
+from usd2kg.validation import validate_graph
 
 ROOM = ox.NamedNode(f"{BASE}-room-2")
 
@@ -60,3 +62,10 @@ def test_the_class_of_rooms_of_a_users_ontology():
     assert room in values(graph, ROOM, RDF.type)
     # Queries for spaces need no ontology.
     assert any(t.subject.value == room and t.predicate == RDFS.subClassOf for t in graph.triples)
+
+
+@pytest.mark.parametrize("profile", ["soma", "plain"])
+def test_validation_accepts_it(profile: str):
+    graph = graph_of(load_home_tbox(), profile)
+    report = validate_graph(GraphStore.from_triples(graph.triples, "flat"))
+    assert not [finding for finding in report.findings if finding.severity == "error"]

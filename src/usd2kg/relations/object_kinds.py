@@ -55,15 +55,11 @@ def find_kinds(scene: Scene, tbox: TBox, grounding: Grounding) -> list[ObjectKin
     def kind_of(iri: ClassIRI | None, home_iri: ClassIRI | None, concept: str | None) -> ObjectKind:
         return _make_kind([(tbox, iri), (home, home_iri)], _with_hypernyms(grounding, concept))
 
+    # An object has no concept where a person's class contradicts it.
+    concepts = {p.prim_path: p.concept for p in grounding.predictions}
     return [
-        kind_of(classes[obj.prim_path], homely.get(obj.prim_path), _concept_of(grounding.by_path.get(obj.prim_path)))
-        for obj in scene.objects
+        kind_of(classes[obj.prim_path], homely.get(obj.prim_path), concepts.get(obj.prim_path)) for obj in scene.objects
     ]
-
-
-def _concept_of(prediction: Prediction | None) -> str | None:
-    """Return the IRI of the concept that an object's name means; None if a person disagrees."""
-    return None if prediction is None or prediction.status is Status.REVIEWED else prediction.concept
 
 
 def _with_hypernyms(grounding: Grounding, concept: str | None) -> tuple[str, ...]:
