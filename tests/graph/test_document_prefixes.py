@@ -6,6 +6,7 @@ import pyoxigraph as ox
 import pytest
 
 from tests.graph.records import build_graph, thing
+from usd2kg.assistant import ask_offline
 from usd2kg.errors import GraphError
 from usd2kg.graph import RDF_FORMATS, serialize_graph, write_graph
 from usd2kg.grounding.lexical.alignment.alignment_rows import AlignmentRow, RowKind, format_rows, parse_rows
@@ -63,6 +64,8 @@ def test_queries_may_use_them(tmp_path: Path, ending: str):
     write_graph(build_graph(tbox, [(thing("/Cup", (0, 0, 0), (1, 1, 1)), "Cup")]), tmp_path / f"graph{ending}")
     store = load_graph(tmp_path / f"graph{ending}")
     assert store.sparql("SELECT ?p { ?o a lab:Cup ; u2k:primPath ?p }").rows == (("/Cup",),)
+    assert [row[0] for row in store.answer("which-where", {"class": "lab:Cup"}).rows] == ["Cup"]
+    assert ask_offline(store, "how many lab:Cup are there?").number == 1
     assert store.sparql("ASK { ?entity a prov:Entity }").rows == (("true",),)
     assert store.hints("SELECT * { ?o a lab:Cupp }") == ["lab:Cupp is not in the graph; did you mean lab:Cup?"]
     with pytest.raises(GraphError, match=r"the prefix unused: is not declared.* lab:,"):

@@ -1,6 +1,7 @@
 """Reading the class of each prim from mappings, queues, gold labels and graphs."""
 
 import json
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
@@ -11,7 +12,7 @@ from tests.labels.conftest import SOMA
 from tests.scene.usda import METRES, component, cube
 from tests.validation.broken import ROOM
 from usd2kg.errors import GroundingError
-from usd2kg.graph import GraphOptions, instantiate, write_graph
+from usd2kg.graph import GraphOptions, format_sssom, instantiate, write_graph
 from usd2kg.graph.vocabulary import U2K
 from usd2kg.grounding import format_mapping, ground
 from usd2kg.labels import read_prim_classes
@@ -42,6 +43,18 @@ def test_reads_a_mapping(read_csv):
         "/X": (None, None, False, "refused"),
         "/B": (f"{SOMA}Bottle", 1.0, True, "reviewed"),
     }
+
+
+def test_reads_sssom(tmp_path, home_tbox):
+    grounding = ground(make_scene(make_object("/Cup"), make_object("/B")), home_tbox, "lexical")
+    first, second = grounding.predictions
+    decided = replace(grounding, predictions=(first, second.reviewed(f"{SOMA}Bottle", "Ada", confidence=1.0)))
+    path = tmp_path / "run.sssom.tsv"
+    path.write_text(format_sssom(decided, home_tbox, {}), encoding="utf-8")
+    cup, bottle = read_prim_classes(path, home_tbox).entries
+    assert (cup.prim_path, cup.class_iri, cup.is_reviewed, cup.concept) == ("/Cup", f"{SOMA}Cup", False, "cup")
+    assert cup.confidence == pytest.approx(first.confidence, abs=1e-4)
+    assert (bottle.class_iri, bottle.status, bottle.is_reviewed) == (f"{SOMA}Bottle", "reviewed", True)
 
 
 def test_reads_gold_labels(read_csv):

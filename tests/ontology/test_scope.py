@@ -107,6 +107,11 @@ def test_roots_may_have_prefixes_of_the_file(load):
     assert parents(tbox) == {"Cup": (), "Mug": ("Cup",)}
 
 
+@pytest.mark.parametrize("name", ["Cup", "coffee cup"])
+def test_roots_may_be_local_names_and_labels(load, name):
+    assert list(parents(load(TREE + ':Cup rdfs:label "coffee cup" .', roots=[name]))) == ["Cup", "Mug"]
+
+
 def test_roots_exclude_deprecated_subclasses(load):
     text = TREE + ":Jug rdfs:subClassOf :Crockery ; owl:deprecated true ."
     assert list(parents(load(text, roots=["http://example.com/home#Crockery"]))) == ["Crockery", "Cup", "Mug"]

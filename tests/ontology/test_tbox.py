@@ -111,12 +111,25 @@ def test_resolve(name, iri):
     assert NAMED.resolve(name) == iri
 
 
+def test_resolves_labels_after_local_names():
+    classes = [(BASE + "Cup", "Bowl"), (BASE + "Bowl", "dish"), (BASE + "C_17", "Fire extinguisher")]
+    tbox = TBox("t.ttl", BASE, None, "sha256:0", tuple(OntologyClass(iri, label, (), "", ()) for iri, label in classes))
+    assert tbox.resolve("Bowl") == BASE + "Bowl"
+    assert tbox.resolve("fire extinguisher") == BASE + "C_17"
+
+
+def test_resolves_curies_with_prefixes_of_the_file():
+    cup = OntologyClass(BASE + "Cup", "cup", (), "", ())
+    tbox = TBox("t.ttl", BASE, None, "sha256:0", (cup,), prefixes={"my": BASE})
+    assert tbox.resolve("my:Cup") == BASE + "Cup"
+
+
 def test_rejects_ambiguous_names():
     with pytest.raises(OntologyError) as caught:
         NAMED.resolve("Cup")
     assert str(caught.value) == (
         f"soma.owl: 'Cup' names 2 classes ({BASE}Cup, {SOMA}Cup) of the 3 in scope; "
-        "expected an IRI, a CURIE or a unique local name, see usd2kg ontology show"
+        "expected an IRI, a CURIE, or a unique local name or label, see usd2kg ontology show"
     )
 
 

@@ -37,8 +37,8 @@ _QUEUE_COLUMNS = ("path", "decision", "reviewer", "comment", "answer", "confiden
 def read_decisions(path: Path, tbox: TBox) -> dict[str, Decision]:
     """Return prim path → decision from a CSV file, without the rows whose decision is empty.
 
-    The class is in the column `decision`, or else `class`: an IRI, a CURIE, a unique local name, or `none`. The columns
-    `reviewer`, `comment` and `time` are optional. A file whose name ends in .tsv is read as SSSOM, see
+    The class is in the column `decision`, or else `class`: an IRI, a CURIE, a unique local name or label, or `none`.
+    The columns `reviewer`, `comment` and `time` are optional. A file whose name ends in .tsv is read as SSSOM, see
     `read_sssom_decisions`.
 
     Raises:

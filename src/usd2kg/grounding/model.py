@@ -1,5 +1,6 @@
 """The result of grounding: a class for each object, with confidence, status and explanation."""
 
+import re
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 from enum import StrEnum
@@ -8,8 +9,9 @@ from functools import cached_property
 from usd2kg.ontology import ClassIRI
 from usd2kg.rich_display import RichDisplay
 
-__all__ = ["PERSON", "Candidate", "Concept", "Decision", "Grounding", "Prediction", "Review", "Status"]
+__all__ = ["PERSON", "Candidate", "Concept", "Decision", "Grounding", "Prediction", "Review", "Status", "reviewer_iri"]
 
+_ORCID = re.compile(r"(?:https?://orcid\.org/|orcid:)?(\d{4}-\d{4}-\d{4}-\d{3}[\dX])", re.ASCII | re.IGNORECASE)
 PERSON = "person"
 """The grounder id of a decision about an object that was not grounded."""
 
@@ -54,6 +56,16 @@ class Concept:
     """IRIs of the direct hypernyms."""
 
 
+def reviewer_iri(reviewer: str) -> str:
+    """Return the IRI of an ORCID iD, written as such, as a CURIE or as an IRI; any other name is returned unchanged.
+
+    >>> reviewer_iri("orcid:0000-0002-1825-0097"), reviewer_iri("Ada")
+    ('https://orcid.org/0000-0002-1825-0097', 'Ada')
+    """
+    found = _ORCID.fullmatch(reviewer.strip())
+    return f"https://orcid.org/{found[1]}" if found else reviewer
+
+
 @dataclass(frozen=True, slots=True)
 class Decision:
     """The class that a person chose for an object; what was predicted is not part of it."""
@@ -66,6 +78,9 @@ class Decision:
     """The reason, empty if none was given."""
     time: str = ""
     """When, as ISO 8601; empty if unknown."""
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "reviewer", reviewer_iri(self.reviewer))
 
 
 @dataclass(frozen=True, slots=True)
@@ -82,6 +97,9 @@ class Review:
     """The reviewer's reason, empty if none was given."""
     time: str = ""
     """When, as ISO 8601; empty if unknown."""
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "reviewer", reviewer_iri(self.reviewer))
 
 
 @dataclass(frozen=True, slots=True)

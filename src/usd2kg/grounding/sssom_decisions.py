@@ -9,7 +9,17 @@ from usd2kg.grounding.model import Decision
 from usd2kg.grounding.sssom_file import SssomFile, SssomRow, read_sssom_file
 from usd2kg.ontology import ClassIRI, TBox
 
-__all__ = ["NO_TERM", "VERDICT", "is_sssom", "read_sssom_decisions"]
+__all__ = [
+    "EXPECTED",
+    "NO_TERM",
+    "REQUIRED",
+    "VERDICT",
+    "is_decided",
+    "is_sssom",
+    "last_rows",
+    "read_class",
+    "read_sssom_decisions",
+]
 
 logger = logging.getLogger(__name__)
 
@@ -21,8 +31,8 @@ _DECIDED = ("class", "no-class")
 """The verdicts that settle the class; `unsure` and `open` do not."""
 _CURATED = "ManualMappingCuration"
 _TYPE = "http://www.w3.org/1999/02/22-rdf-syntax-ns#type"
-_REQUIRED = ("prim_path", "predicate_id", "object_id", "mapping_justification")
-_EXPECTED = "expected SSSOM/TSV with the column prim_path, as usd2kg ground --format sssom writes it"
+REQUIRED = ("prim_path", "predicate_id", "object_id", "mapping_justification")
+EXPECTED = "expected SSSOM/TSV with the column prim_path, as usd2kg ground --format sssom writes it"
 
 
 def is_sssom(path: Path) -> bool:
@@ -40,14 +50,14 @@ def read_sssom_decisions(path: Path, text: str, tbox: TBox) -> dict[str, Decisio
     Raises:
         GroundingError: a column is missing, a predicate is not rdf:type, a class is not in scope, or a prim has two.
     """
-    file = read_sssom_file(path, text, _REQUIRED, _EXPECTED)
+    file = read_sssom_file(path, text, REQUIRED, EXPECTED)
     decisions: dict[str, Decision] = {}
-    for line, cells in _last_rows(file):
-        if not _is_decided(cells):
+    for line, cells in last_rows(file):
+        if not is_decided(cells):
             continue
         where = f"{path}: line {line}"
         decision = Decision(
-            _read_class(where, cells, file, tbox),
+            read_class(where, cells, file, tbox),
             file.expand(cells.get("reviewer_id", "")) or cells.get("reviewer_label", "").replace(r"\|", "|"),
             comment=cells.get("comment", "") if VERDICT in cells else "",
             time=cells.get("decided_at") or cells.get("review_date", ""),
@@ -60,23 +70,29 @@ def read_sssom_decisions(path: Path, text: str, tbox: TBox) -> dict[str, Decisio
     return decisions
 
 
-def _last_rows(file: SssomFile) -> Iterable[SssomRow]:
+def last_rows(file: SssomFile) -> Iterable[SssomRow]:
     """Return the rows; of a journal the last one of each prim."""
     if not any(VERDICT in row.cells for row in file.rows):
         return file.rows
     return {row.cells["prim_path"]: row for row in file.rows}.values()
 
 
-def _is_decided(cells: Mapping[str, str]) -> bool:
+def is_decided(cells: Mapping[str, str]) -> bool:
+    """Return whether a person curated or reviewed a row, and settled the class."""
     has_reviewer = bool(cells.get("reviewer_id") or cells.get("reviewer_label"))
     is_curated = cells["mapping_justification"].endswith(_CURATED)
     is_open = cells.get(VERDICT, _DECIDED[0]) not in _DECIDED
     return (has_reviewer or is_curated) and not cells.get("predicate_modifier") and not is_open
 
 
-def _read_class(where: str, cells: Mapping[str, str], file: SssomFile, tbox: TBox) -> ClassIRI | None:
+def read_class(where: str, cells: Mapping[str, str], file: SssomFile, tbox: TBox) -> ClassIRI | None:
+    """Return the class of a row; None if no class fits.
+
+    Raises:
+        GroundingError: the prim path is empty, the predicate is not rdf:type, or the class is not in scope.
+    """
     if not cells["prim_path"]:
-        raise GroundingError(f"{where}: prim_path is empty; {_EXPECTED}")
+        raise GroundingError(f"{where}: prim_path is empty; {EXPECTED}")
     if file.expand(cells["predicate_id"]) != _TYPE:
         raise GroundingError(f"{where}: the predicate is {cells['predicate_id']!r}; expected rdf:type, or no reviewer")
     if file.expand(cells["object_id"]) == NO_TERM:

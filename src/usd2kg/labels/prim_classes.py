@@ -12,6 +12,8 @@ import pyoxigraph as ox
 from usd2kg.errors import GroundingError, OntologyError
 from usd2kg.graph.vocabulary import OWL, RDF, SKOS, SSSOM, U2K
 from usd2kg.grounding import PERSON, Grounding, Status, read_grounding
+from usd2kg.grounding.sssom_decisions import EXPECTED, REQUIRED, is_decided, is_sssom, last_rows, read_class
+from usd2kg.grounding.sssom_file import read_sssom_file
 from usd2kg.ontology import ClassIRI, TBox
 from usd2kg.query import GraphStore, load_graph
 
@@ -52,7 +54,7 @@ class PrimClasses:
 
 
 def read_prim_classes(path: Path, tbox: TBox) -> PrimClasses:
-    """Return the classes in a `.csv` or `.json` file of `usd2kg ground`, a filled-in queue, gold labels, or a graph.
+    """Return the classes in a mapping (`.csv`, `.json`, SSSOM as `.tsv`), a filled-in queue, gold labels, or a graph.
 
     Raises:
         GroundingError: a mapping cannot be read, a class is not in the scope of `tbox`, a prim has two classes, a prim
@@ -64,6 +66,8 @@ def read_prim_classes(path: Path, tbox: TBox) -> PrimClasses:
         found = _read_grounding_file(path)
     elif ending == ".csv":
         found = _read_csv(path)
+    elif is_sssom(path):
+        found = _read_sssom(path, tbox)
     else:
         found = _read_graph(load_graph(path), tbox)
     entries: dict[str, PrimClass] = {}
@@ -141,6 +145,31 @@ def _parse_row(where: str, row: dict[str, str | None], column: str) -> PrimClass
     confidence = _parse_confidence(where, cells["path"], number)
     status = str(cells["status"] or default)
     return PrimClass(cells["path"], name, confidence, status, by_person and name is not None, cells["concept_label"])
+
+
+def _read_sssom(path: Path, tbox: TBox) -> Iterator[tuple[str, PrimClass]]:
+    try:
+        file = read_sssom_file(path, path.read_text("utf-8-sig"), REQUIRED, EXPECTED)
+    except (OSError, UnicodeDecodeError) as error:
+        raise GroundingError(f"{path}: cannot be read as a mapping ({error}); {EXPECTED}") from error
+    for line, cells in last_rows(file):
+        if cells.get("predicate_modifier"):
+            continue
+        where, is_reviewed = f"{path}: line {line}", is_decided(cells)
+        iri = read_class(where, cells, file, tbox)
+        default = Status.REVIEWED if is_reviewed else Status.GROUNDED
+        confidence = _parse_confidence(where, cells["prim_path"], cells.get("confidence") or None)
+        yield (
+            where,
+            PrimClass(
+                cells["prim_path"],
+                iri,
+                confidence,
+                cells.get("status") or default,
+                is_reviewed and iri is not None,
+                cells.get("concept_label", ""),
+            ),
+        )
 
 
 def _read_graph(store: GraphStore, tbox: TBox) -> Iterator[tuple[str, PrimClass]]:

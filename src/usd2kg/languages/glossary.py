@@ -60,6 +60,15 @@ class Glossary:
         split = best.get(len(text))
         return split.parts if split is not None and split.reveals_language else ()
 
+    def split_head(self, word: str) -> tuple[str, Form] | None:
+        """Return the unknown beginning of a German compound and its longest known head; None without one."""
+        text = fold(word, self.language)
+        for start in range(COMPOUNDS.min_part, len(text) - COMPOUNDS.min_head + 1) if self.modifiers else ():
+            head = self.words.get(text[start:])
+            if head is not None and head.reveals_language and head.entry.role != "adjective":
+                return text[:start], head
+        return None
+
     def dictionary_form(self, word: str) -> str:
         """Return the dictionary form of a word; its folded spelling if it is a compound or unknown."""
         forms = self.parse(word)

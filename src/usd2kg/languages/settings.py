@@ -29,6 +29,7 @@ class CompoundSettings(NamedTuple):
 
     max_letters: int
     min_part: int
+    min_head: int
     min_revealing_part: int
     part_cost: int
 

@@ -13,6 +13,10 @@ _MODIFIER_ORDER = {"adjective": 0, "unknown": 1, "english": 1, "material": 2}
 """Role → position before the nouns in English."""
 
 
+_HEADS = {"de": -1}
+"""Language → index of the head noun, if it is not the first."""
+
+
 class _Reading(NamedTuple):
     """A name read in one language."""
 
@@ -50,12 +54,15 @@ def translate(words: tuple[str, ...], language: str | None = None) -> tuple[str,
     """Return the English words for the lower-case words of a name, the head noun last; None for an English name.
 
     A homograph of an English word (`wand`, `pan`) is translated only next to words that reveal the language, or if
-    `language` states the language of the surrounding names. Unknown words are kept and precede the noun.
+    `language` states the language of the surrounding names, where only the head has to be known. Unknown words are
+    kept and precede the noun.
 
     >>> translate(("silla", "de", "oficina"))
     ('office', 'chair')
     >>> translate(("wand",)), translate(("wand",), language="de")
     (None, ('wall',))
+    >>> translate(("zentrifugenlampe",), language="de"), translate(("silla", "gestatoria"), language="es")
+    (('centrifuge', 'lamp'), ('gestatoria', 'chair'))
     """
     reading = _best_reading(words, language)
     return reading and reading.english
@@ -91,9 +98,9 @@ def _best_reading(words: tuple[str, ...], language: str | None) -> _Reading | No
 
 def _read(words: tuple[str, ...], lexicon: Glossary, is_expected: bool) -> _Reading | None:
     """Return the name as read in one language; None if too few of its words are in that language."""
-    if not any(_read_word(word, lexicon.language).is_known for word in words):
+    if not any(_read_word(word, lexicon.language, is_expected).is_known for word in words):
         return None
-    terms = _main_terms(words, lexicon)
+    terms = _main_terms(words, lexicon, is_expected)
     links = [term for term in terms if term.role == "link"]
     others = [term for term in terms if term.role != "link"]
     size = sum(term.size for term in others)
@@ -103,17 +110,18 @@ def _read(words: tuple[str, ...], lexicon: Glossary, is_expected: bool) -> _Read
         revealing += sum(link.reveals_language for link in links)
     # One foreign word next to an English one is more often a brand than a mixed name, unless the language is expected.
     is_mixed = revealing + is_expected <= sum(term.role == "english" for term in others)
-    if not known or 2 * known < size or is_mixed:
+    is_head_known = bool(others) and others[_HEADS.get(lexicon.language, 0)].role in {"", "material"}
+    if not known or is_mixed or (2 * known < size and not (is_expected and is_head_known)):
         return None
     return _Reading(lexicon.language, revealing, known, _in_english_order(terms, lexicon.language))
 
 
-def _main_terms(words: tuple[str, ...], lexicon: Glossary) -> list[_Term]:
+def _main_terms(words: tuple[str, ...], lexicon: Glossary, is_expected: bool) -> list[_Term]:
     """Return the terms before a preposition such as `mit`: accessories do not describe the object."""
     terms: list[_Term] = []
     at = 0
     while at < len(words):
-        term, at = _next_term(words, at, lexicon)
+        term, at = _next_term(words, at, lexicon, is_expected)
         if term.role != "with":
             terms.append(term)
         elif terms:
@@ -121,9 +129,9 @@ def _main_terms(words: tuple[str, ...], lexicon: Glossary) -> list[_Term]:
     return terms
 
 
-def _next_term(words: tuple[str, ...], at: int, lexicon: Glossary) -> tuple[_Term, int]:
+def _next_term(words: tuple[str, ...], at: int, lexicon: Glossary, is_expected: bool) -> tuple[_Term, int]:
     """Return the term that begins at a word, and the index after it."""
-    word = _read_word(words[at], lexicon.language)
+    word = _read_word(words[at], lexicon.language, is_expected)
     phrase = _phrase_at(words, at, lexicon) if word.key in lexicon.phrase_starts and not word.is_link else None
     return phrase or (word.term, at + 1)
 
@@ -133,7 +141,7 @@ def _phrase_at(words: tuple[str, ...], at: int, lexicon: Glossary) -> tuple[_Ter
     found = None
     keys: list[str] = []
     for end in range(at, min(at + PHRASES.max_words, len(words))):
-        word = _read_word(words[end], lexicon.language)
+        word = _read_word(words[end], lexicon.language, False)
         if not word.is_link:
             keys.append(word.key)
             if entry := lexicon.phrases.get(tuple(keys)):
@@ -142,7 +150,7 @@ def _phrase_at(words: tuple[str, ...], at: int, lexicon: Glossary) -> tuple[_Ter
 
 
 @lru_cache(maxsize=65536)
-def _read_word(word: str, language: str) -> _Word:
+def _read_word(word: str, language: str, is_expected: bool) -> _Word:
     lexicon = load_lexicons()[language]
     key = lexicon.dictionary_form(word)
     if link := lexicon.link(word):
@@ -151,6 +159,9 @@ def _read_word(word: str, language: str) -> _Word:
         english = tuple(part for form in forms for part in form.entry.english)
         term = _Term(english, forms[-1].entry.role, 1, any(form.reveals_language for form in forms))
         return _Word(term, key, is_link=False, is_known=True)
+    if is_expected and (split := lexicon.split_head(word)) is not None:
+        before, head = split
+        return _Word(_Term((before, *head.entry.english), head.entry.role, 1, True), key, is_link=False, is_known=True)
     term = _Term((word,), "english" if word in _english_nouns() else "unknown", 1, False)
     return _Word(term, key, is_link=False, is_known=key in lexicon.phrase_starts)
 

@@ -60,6 +60,18 @@ class Annotations:
                 return min(self.texts[name], key=_language_rank)[1]
         return ""
 
+    def foreign_texts(self, properties: Iterable[str]) -> dict[str, str]:
+        """Return text → tag of those that are tagged with other languages than English, and with no other tag."""
+        found: dict[str, set[str]] = defaultdict(set)
+        for name in properties:
+            for language, text in self.texts.get(name, ()):
+                found[text].add(language)
+        return {
+            text: min(tags)
+            for text, tags in found.items()
+            if all(tag and tag.lower().split("-")[0] != "en" for tag in tags)
+        }
+
     def all_texts(self, properties: Iterable[str]) -> set[str]:
         """Return the texts of the properties in all languages."""
         return {text for name in properties for _, text in self.texts.get(name, ())}

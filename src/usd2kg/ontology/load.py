@@ -124,12 +124,12 @@ def _scope(
 ) -> set[str]:
     own, *imported = (document.axioms for document in documents)
     if classes is not None:
-        scope = {expand_curie(iri, own.prefixes) for iri in classes}
+        scope = {_class_named(name, own, closure) for name in classes}
         unknown = sorted(scope - closure.classes)
         if unknown:
             raise OntologyError(f"{name}: <{unknown[0]}> is not a class of the ontology; check the list of classes")
     elif roots is not None:
-        scope = rooted_scope([expand_curie(iri, own.prefixes) for iri in roots], closure)
+        scope = rooted_scope([_class_named(name, own, closure) for name in roots], closure)
     else:
         scope = default_scope(own, closure, imported)
     if not scope:
@@ -138,6 +138,15 @@ def _scope(
             "expected an OWL ontology with classes below its roots; `usd2kg ontology show FILE --root IRI` tries others"
         )
     return scope
+
+
+def _class_named(name: str, own: ClassAxioms, closure: ClassAxioms) -> str:
+    """Return the IRI for an IRI, a CURIE, or a local name or label that one class has; other text as it is."""
+    iri = expand_curie(name, own.prefixes)
+    if iri in closure.classes:
+        return iri
+    named = {iri for iri in closure.classes if name in {local_name(iri), _label(iri, closure)}}
+    return named.pop() if len(named) == 1 else iri
 
 
 def _hash(documents: Iterable[Document]) -> str:
@@ -153,6 +162,7 @@ def _class(
     label = _label(iri, closure)
     others = {text for each in annotations for text in each.all_texts((*LABELS, *ALT_LABELS))}
     others |= {_label(same, closure) for same in equivalents}
+    foreign = {text: tag for each in annotations for text, tag in each.foreign_texts((*LABELS, *ALT_LABELS)).items()}
     return OntologyClass(
         iri=iri,
         label=label,
@@ -162,6 +172,7 @@ def _class(
         dispositions=dispositions,
         equivalents=tuple(equivalents),
         wikidata=_wikidata((iri, *equivalents), closure),
+        foreign_names=tuple(sorted((tag, text) for text, tag in foreign.items())),
     )
 
 

@@ -45,6 +45,8 @@ class OntologyClass:
     """IRIs of equivalent named classes, sorted; none of them is in the scope."""
     wikidata: tuple[str, ...] = ()
     """Wikidata items that the ontology maps the class to, by its strongest mapping property, sorted by number."""
+    foreign_names: tuple[tuple[str, str], ...] = ()
+    """(language tag, name) of the label and synonyms that are tagged with another language than English, sorted."""
 
     @property
     def local_name(self) -> str:
@@ -161,8 +163,16 @@ class TBox:
         # The local name of a class has priority over that of an equivalent class.
         return {name: tuple(sorted(iris)) for name, iris in (others | found).items()}
 
+    @cached_property
+    def _iris_by_label(self) -> Mapping[str, tuple[ClassIRI, ...]]:
+        found: dict[str, set[ClassIRI]] = {}
+        for cls in self.classes:
+            if cls.label:
+                found.setdefault(cls.label.casefold(), set()).add(cls.iri)
+        return {label: tuple(sorted(iris)) for label, iris in found.items()}
+
     def resolve(self, name: str) -> ClassIRI:
-        """Return the class with an IRI, a CURIE, or a local name that is unique in the scope.
+        """Return the class with an IRI, a CURIE, or a local name or else a label that is unique in the scope.
 
         The name of an equivalent class resolves to its representative.
 
@@ -175,11 +185,11 @@ class TBox:
                 return candidate
             if candidate in self._iri_by_equivalent:
                 return self._iri_by_equivalent[candidate]
-        named = self._iris_by_local_name.get(name, ())
+        named = self._iris_by_local_name.get(name, ()) or self._iris_by_label.get(name.casefold(), ())
         if len(named) == 1:
             return named[0]
         found = f"{len(named)} classes ({', '.join(named)})" if named else "no class"
         raise OntologyError(
             f"{self.source}: {name!r} names {found} of the {len(self.classes)} in scope; "
-            "expected an IRI, a CURIE or a unique local name, see usd2kg ontology show"
+            "expected an IRI, a CURIE, or a unique local name or label, see usd2kg ontology show"
         )

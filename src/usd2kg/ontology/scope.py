@@ -101,8 +101,8 @@ def rooted_scope(roots: Iterable[str], closure: ClassAxioms) -> set[str]:
     unknown = sorted(wanted - closure.classes)
     if unknown:
         raise OntologyError(
-            f"scope: <{unknown[0]}> is not a class of the ontology; expected the IRI or CURIE of one of its "
-            "classes, as `usd2kg ontology scope FILE` lists them"
+            f"scope: <{unknown[0]}> is not a class of the ontology; expected the IRI, CURIE, local name or label "
+            "of one of its classes, as `usd2kg ontology scope FILE` lists them"
         )
     below = reachable(_invert(closure.superclasses()), wanted) & closure.classes
     return wanted | {iri for iri in below if not closure.annotations[iri].is_deprecated}

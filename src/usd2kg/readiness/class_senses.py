@@ -4,6 +4,7 @@ from collections.abc import Iterator, Mapping
 from functools import cached_property
 
 from usd2kg.grounding import ObjectView
+from usd2kg.grounding.lexical.alignment.english_labels import in_english
 from usd2kg.grounding.lexical.alignment.lexicon import build_lexicon, physical_classes
 from usd2kg.grounding.lexical.alignment.terms import Term, TermKind, term_key
 from usd2kg.grounding.lexical.concepts.home_names import home_names
@@ -23,7 +24,7 @@ class ClassSenses:
     def __init__(self, tbox: TBox) -> None:
         self._tbox = tbox
         self._taxonomy = load_taxonomy()
-        self._lexicon = build_lexicon(tbox, self._taxonomy, home_names())
+        self._lexicon = build_lexicon(in_english(tbox), self._taxonomy, home_names())
         self._aligned = {aligned.class_iri for aligned in self._lexicon.sense_classes.values()}
         self._categories = {
             member.aligned.class_iri

@@ -4,7 +4,7 @@ It reads a name as a noun phrase and matches its head noun with the terms of the
 Where the name is not clear it adds the evidence of assets, documentation, parts, neighbours, size and place.
 """
 
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import replace
 from functools import lru_cache
 from itertools import chain
@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING
 
 from usd2kg.garbage import paused_collection
 from usd2kg.grounding.context.views import ObjectView
+from usd2kg.grounding.lexical.alignment.english_labels import as_text, in_english
 from usd2kg.grounding.lexical.candidate_evidence import CandidateEvidence
 from usd2kg.grounding.lexical.class_choice import choose_superclass, reconcile_copies, superclass_confidence
 from usd2kg.grounding.lexical.concepts.home_names import home_names
@@ -128,7 +129,7 @@ class LexicalGrounder:
 
     def object_grounder(self, tbox: TBox) -> ObjectGrounder:
         """Return the grounder of single objects to the classes of a TBox."""
-        return _make_object_grounder(tbox, self._use_home_synonyms, self._use_member_lists, self._alignment)
+        return _make_object_grounder(in_english(tbox), self._use_home_synonyms, self._use_member_lists, self._alignment)
 
 
 def _predict_by_size(grounder: ObjectGrounder, views: Sequence[ObjectView]) -> list[ScoredView]:
@@ -165,13 +166,6 @@ def _make_object_grounder(
     # An edited alignment may have problems to warn about.
     tables = NO_CACHE
     if alignment is None:
-        tables = open_table_cache([f"{use_home_synonyms} {use_member_lists}", *_as_text(tbox)])
+        tables = open_table_cache([f"{use_home_synonyms} {use_member_lists}", *as_text(tbox)])
     synonyms = home_names if use_home_synonyms else dict
     return ObjectGrounder(tbox, synonyms, alignment, use_member_lists=use_member_lists, tables=tables)
-
-
-def _as_text(tbox: TBox) -> Iterator[str]:
-    """Yield the cache key parts of a lexicon; the same ontology may be loaded with another scope."""
-    yield tbox.content_hash
-    for cls in tbox.classes:
-        yield "\n".join((cls.iri, cls.label, cls.comment, *cls.alt_labels, "", *cls.parents))

@@ -73,8 +73,18 @@ class Kinds:
         return [*self._classes, *self._concepts]
 
     def _classes_named(self, name: str) -> list[ox.NamedNode]:
-        found = self._class_index.find(name_words(name), {name, expand_curie(name)})
+        found = self._class_index.find(name_words(name), {name, self._expanded(name)})
         return [*found, *(node for one in _synonyms(name) for node in self._class_index.find(name_words(one), ()))]
+
+    def _expanded(self, name: str) -> str:
+        """Return the IRI of a CURIE of a class, whose prefix the graph may declare; other text is returned unchanged.
+
+        The words of questions are in lower case.
+        """
+        if ":" not in name:
+            return name
+        iri = expand_curie(name, self._facts.dataset.prefixes)
+        return next((node.value for node, _ in self._classes if node.value.casefold() == iri.casefold()), iri)
 
     def _of_class_with_other_name(self, name: str) -> set[str]:
         """Return the objects of a class with another name for a noun: trash containers are waste containers.
@@ -104,7 +114,7 @@ class Kinds:
         return [name, *near, *_synonyms(name)]
 
     def _concepts_named(self, name: str) -> list[ox.NamedNode]:
-        iris = {name, expand_curie(name), *(iri for one in self._names(name) for iri in concepts_named(one))}
+        iris = {name, self._expanded(name), *(iri for one in self._names(name) for iri in concepts_named(one))}
         return self._concept_index.find(name_words(name), iris)
 
     @cached_property

@@ -5,6 +5,7 @@ from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import NamedTuple
 
+from usd2kg.grounding.lexical.alignment.english_labels import has_foreign_name
 from usd2kg.grounding.lexical.alignment.home_vocabulary import lend_terms
 from usd2kg.grounding.lexical.alignment.label_words import (
     SENSE_KEY,
@@ -154,7 +155,8 @@ def _own_terms(tbox: TBox, taxonomy: Taxonomy, synonyms: Mapping[ClassIRI, tuple
 
 def _texts_of(cls: OntologyClass, synonyms: Iterable[str]) -> Iterator[tuple[str, TermKind]]:
     yield cls.label, TermKind.LABEL
-    yield cls.local_name, TermKind.LABEL
+    if not has_foreign_name(cls, cls.local_name):
+        yield cls.local_name, TermKind.LABEL
     for text in (*cls.alt_labels, *synonyms):
         yield text, TermKind.SYNONYM
 
