@@ -34,6 +34,21 @@ def test_writes_labels_of_a_mapping(run: Run, room: Path, mapping: Path):
     assert run("label", "lint", "room.labels.usda", "--run", mapping).out == "0 findings on 4 labelled prims\n"
 
 
+def test_lint_asks_for_the_ontology_that_the_labels_name(run: Run, room: Path, tmp_path: Path):
+    own = tmp_path / "own.ttl"
+    own.write_text(
+        "@prefix : <https://lab.example/o#> . @prefix owl: <http://www.w3.org/2002/07/owl#> .\n"
+        "@prefix rdfs: <http://www.w3.org/2000/01/rdf-schema#> . <https://lab.example/o> a owl:Ontology .\n"
+        ":Thing a owl:Class . :Cup rdfs:subClassOf :Thing . :Table rdfs:subClassOf :Thing ."
+    )
+    assert run("ground", room, "--ontology", own, "--format", "json", "-o", "own.json").code == 0
+    assert run("label", room, "own.json", "--ontology", own, "-o", "own.usda").code == 0
+    done = run("label", "lint", "own.usda")
+    assert done.code == 2
+    assert "the labels are classes of <https://lab.example/o>; give the file of that ontology with --ontology" in done.err
+    assert run("label", "lint", "own.usda", "--ontology", own).code == 0
+
+
 @pytest.mark.parametrize("kind", ["json", "ttl"])
 def test_every_kind_of_run_gives_the_same_layer(run: Run, room: Path, mapping: Path, kind: str):
     other = room.parent / f"room.{kind}"

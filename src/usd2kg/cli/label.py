@@ -15,7 +15,7 @@ from usd2kg.cli.options.bundles import expand_bundles
 from usd2kg.cli.options.common import AllFindings, JsonOutput, OntologyFile, SceneFile
 from usd2kg.cli.options.stage import StageOptions
 from usd2kg.cli.output import count_noun, emit, notify, print_json
-from usd2kg.errors import OutputError
+from usd2kg.errors import GroundingError, OutputError
 from usd2kg.files import check_apart, check_writable, stem_of
 
 if TYPE_CHECKING:
@@ -185,13 +185,19 @@ def lint_command(
     json: JsonOutput = False,
 ) -> None:
     """Find labels that are wrong, stale or contradictory. Exit code 1 if there are any."""
-    from usd2kg.labels import lint_stage, read_prim_classes  # noqa: PLC0415 - loads OpenUSD, too slow for --help
-    from usd2kg.ontology import PLACES_IRI  # noqa: PLC0415
+    # Loads OpenUSD, too slow for --help.
+    from usd2kg.labels import lint_stage, ontologies_of_labels, read_prim_classes  # noqa: PLC0415
+    from usd2kg.ontology import PLACES_IRI, SOMA_HOME  # noqa: PLC0415
     from usd2kg.pipeline import open_tbox  # noqa: PLC0415
     from usd2kg.progress import show_steps  # noqa: PLC0415
 
     with show_steps("ontology", "parse", "lint", is_wanted=not json):
         # The built-in TBox of places has the classes of both.
+        others = ontologies_of_labels(scene) - {SOMA_HOME, PLACES_IRI} if ontology is None else set()
+        if others:
+            raise GroundingError(
+                f"{scene}: the labels are classes of <{min(others)}>; give the file of that ontology with --ontology"
+            )
         tbox = open_tbox(ontology, stated=(PLACES_IRI,))
         classes = read_prim_classes(run, tbox) if run is not None else None
         lint = lint_stage(scene, tbox, classes, reading.read_options())

@@ -14,10 +14,10 @@ from usd2kg.files import check_writable, is_same_file, write_whole
 from usd2kg.labels.author import author_labels
 from usd2kg.labels.model import ClassLabel, LabelOptions, LabelReport
 from usd2kg.scene.options import ReadOptions
-from usd2kg.scene.session_layer import is_marked, mark_layer
+from usd2kg.scene.session_layer import is_marked, mark_layer, provenance_of
 from usd2kg.scene.stage import captured_diagnostics, open_stage, translated_errors
 
-__all__ = ["write_labels"]
+__all__ = ["ontologies_of_labels", "write_labels"]
 
 _NOT_COPIED = frozenset("comment documentation layerRelocates primChildren primOrder subLayerOffsets subLayers".split())
 """Metadata of a root layer that OpenUSD composes from its sublayers, or that describes only that layer."""
@@ -60,6 +60,17 @@ def write_labels(
         data = _serialize(layer, target.suffix.lower())
     write_whole(target, data)
     return report
+
+
+def ontologies_of_labels(source: Path | str) -> set[str]:
+    """Return the IRIs of the ontologies that the label layers of a stage name.
+
+    Raises:
+        SceneError: the stage cannot be read.
+    """
+    opened = open_stage(source, ReadOptions())
+    stated = (provenance_of(layer, "labels").get("ontology") for layer in opened.stage.GetUsedLayers())
+    return {iri for iri in stated if iri}
 
 
 def _check_replaceable(stage: Any, target: Path) -> None:

@@ -5,7 +5,7 @@ from typing import TYPE_CHECKING
 from usd2kg.lazy_names import lazy_names
 
 if TYPE_CHECKING:
-    from usd2kg.ontology.built_in import PLACES_IRI
+    from usd2kg.ontology.built_in import PLACES_IRI, SOMA_HOME
     from usd2kg.ontology.class_axioms import LABELS
     from usd2kg.ontology.closure import Closure, read_closure, without_header
     from usd2kg.ontology.fetch import fetch_ontology
@@ -20,6 +20,7 @@ __all__ = [
     "BUILT_IN_NAMES",
     "LABELS",
     "PLACES_IRI",
+    "SOMA_HOME",
     "ClassIRI",
     "Closure",
     "KnownOntology",
@@ -47,6 +48,7 @@ __getattr__ = lazy_names(
         "BUILT_IN_NAMES": "load",
         "LABELS": "class_axioms",
         "PLACES_IRI": "built_in",
+        "SOMA_HOME": "built_in",
         "ClassIRI": "model",
         "Closure": "closure",
         "KnownOntology": "known_ontologies",

@@ -6,7 +6,7 @@ from pxr import Sdf, Usd
 
 from usd2kg.errors import OutputError
 
-__all__ = ["add_to_session", "is_marked", "mark_layer", "remove_from_session"]
+__all__ = ["add_to_session", "is_marked", "mark_layer", "provenance_of", "remove_from_session"]
 
 _MARK = "usd2kg"
 """Key in `customLayerData` that identifies layers of usd2kg."""
@@ -20,6 +20,12 @@ def mark_layer(layer: Sdf.Layer, content: str, provenance: Mapping[str, str]) ->
 def is_marked(layer: Sdf.Layer) -> bool:
     """Return whether usd2kg wrote a layer."""
     return _MARK in layer.customLayerData
+
+
+def provenance_of(layer: Sdf.Layer, content: str) -> Mapping[str, str]:
+    """Return the provenance of a layer with some content; empty for any other layer."""
+    found = layer.customLayerData.get(_MARK)
+    return {k: str(v) for k, v in found.items()} if isinstance(found, dict) and found.get("content") == content else {}
 
 
 def add_to_session(stage: Usd.Stage, opinions: Sdf.Layer, content: str) -> None:

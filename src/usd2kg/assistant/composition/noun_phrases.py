@@ -208,7 +208,8 @@ class NounPhrases:
             narrow, wide = self._found(f"the {text}"), self._found(text)
             if narrow is None or wide is None or narrow.iris == wide.iris:
                 return [self._group(text, narrow)] if narrow is not None else []
-            return [self._group(text, narrow), replace(self._group(text, wide), cost=_WIDER)]
+            # That there are others, too, makes the narrow reading no guess.
+            return [replace(self._group(text, narrow), cost=0), replace(self._group(text, wide), cost=_WIDER)]
         found = self._found(text)
         if found is None:
             return []

@@ -29,6 +29,7 @@ from usd2kg.query.lookup.word_forms import (
     singular,
     split_phrase,
 )
+from usd2kg.query.settings import LOOKUP
 
 __all__ = ["Nouns"]
 
@@ -205,7 +206,9 @@ class Nouns(PlaceNouns):
         if not exact or len(exact) == len(found.iris):
             return found
         self.guesses.append(f"“{text}” was read as {len(exact)} of {len(found.iris)} things that may be meant")
-        return replace(found, iris=exact)
+        others = [self._facts.label(iri) for iri in found.iris if iri not in exact]
+        listed = [*others[: LOOKUP.max_suggestions], *(["others"] if len(others) > LOOKUP.max_suggestions else ())]
+        return replace(found, iris=exact, note=f"there are also {', '.join(listed)}")
 
     def for_purpose(self, verb: str) -> Things:
         """Return the things for a purpose, those of the kinds that it names: cleaning equipment.
