@@ -167,6 +167,7 @@ class AlignmentSettings(NamedTuple):
     other_sense_weight: float
     min_sense_ratio: float
     assumed_category_size: int
+    category_confidence: float
     model_confidence: float
     listed_confidence: float
 

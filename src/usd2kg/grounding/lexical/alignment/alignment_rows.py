@@ -10,6 +10,7 @@ from pathlib import Path
 from usd2kg.errors import GroundingError, OntologyError
 from usd2kg.grounding.lexical.alignment.artificial_root import NO_CLASS, NO_CLASS_IRI
 from usd2kg.grounding.lexical.alignment.terms import TermKind
+from usd2kg.grounding.lexical.settings import ALIGNMENT
 from usd2kg.grounding.sssom_file import Curies, SssomFile, SssomRow, cell_text, format_sssom_file, read_sssom_file
 from usd2kg.ontology import ClassIRI, TBox
 from usd2kg.ontology.namespaces import CONCEPT, SKOS, U2K, WORDNET
@@ -149,11 +150,16 @@ def _cells_of(row: AlignmentRow, tbox: TBox, curies: Curies) -> dict[str, str]:
         "mapping_justification": _justification(row),
         "mapping_tool": cell_text(row.tool),
         "reviewer_label": "|".join(cell_text(name).replace("|", r"\|") for name in row.reviewers),
-        "confidence": f"{row.confidence:g}",
+        "confidence": f"{row.confidence * _share_right(row.kind):g}",
         "comment": cell_text(row.reason),
         "term_kind": row.term_kind.value if is_term else "",
         "category_size": str(row.category_size) if row.category_size else "",
     }
+
+
+def _share_right(kind: RowKind) -> float:
+    """Return the probability that a row of full weight is right: categories of common usage hold in part."""
+    return ALIGNMENT.category_confidence if kind is RowKind.CATEGORY else 1.0
 
 
 def _justification(row: AlignmentRow) -> str:
@@ -224,11 +230,12 @@ def _parse_row(where: str, row: SssomRow, file: SssomFile, tbox: TBox) -> Alignm
     size = _parse_size(where, cells.get("category_size", ""))
     is_category = predicate == RowKind.CATEGORY.value and size > 0
     is_curated = _is_curated(cells, class_iri, file, tbox)
+    kind = RowKind.TERM if is_term else RowKind.CATEGORY if is_category else RowKind.CONCEPT
     return AlignmentRow(
-        kind=RowKind.TERM if is_term else RowKind.CATEGORY if is_category else RowKind.CONCEPT,
+        kind=kind,
         subject=subject,
         class_iri=class_iri,
-        confidence=_parse_confidence(where, cells.get("confidence", "")),
+        confidence=_parse_confidence(where, cells.get("confidence", ""), _share_right(kind)),
         label=cells["subject_label"],
         term_kind=_parse_term_kind(where, cells.get("term_kind", "")),
         category_size=size,
@@ -262,14 +269,15 @@ def _parse_class(where: str, text: str, file: SssomFile, tbox: TBox) -> ClassIRI
         raise GroundingError(f"{where}: {error}{origin}") from error
 
 
-def _parse_confidence(where: str, text: str) -> float:
+def _parse_confidence(where: str, text: str, share_right: float) -> float:
+    """Return the weight of a row."""
     try:
         confidence = float(text or "1")
     except ValueError:
         confidence = math.nan
     if not 0 < confidence <= 1:
         raise GroundingError(f"{where}: the confidence is {text!r}; expected a number above 0, at most 1")
-    return confidence
+    return min(round(confidence / share_right, 6), 1.0)
 
 
 def _parse_term_kind(where: str, text: str) -> TermKind:

@@ -121,7 +121,7 @@ def make_lexicon(
         default_class=default_class,
         general_classes=general_classes_of(tbox, default_class),
         home_classes=home_classes,
-        category_members={synset: sorted(members) for synset, members in category_members.items()},
+        category_members={synset: sorted(set(members)) for synset, members in category_members.items()},
     )
 
 
@@ -155,7 +155,8 @@ def _own_terms(tbox: TBox, taxonomy: Taxonomy, synonyms: Mapping[ClassIRI, tuple
 
 def _texts_of(cls: OntologyClass, synonyms: Iterable[str]) -> Iterator[tuple[str, TermKind]]:
     yield cls.label, TermKind.LABEL
-    if not has_foreign_name(cls, cls.local_name):
+    # A local name that is a number (EQP_0000001) says nothing.
+    if cls.readable_name == cls.local_name and not has_foreign_name(cls, cls.local_name):
         yield cls.local_name, TermKind.LABEL
     for text in (*cls.alt_labels, *synonyms):
         yield text, TermKind.SYNONYM
