@@ -20,6 +20,7 @@ from tools.word_lists import convert_word_lists
 BUILDERS = {
     "categories.csv": ("tools.build_categories", "build_categories"),
     "class_members.csv": ("tools.build_class_members", "build_class_members"),
+    "glosses.csv": ("tools.build_glosses", "build_glosses"),
     "home.ttl": ("tools.builtin_tboxes", "build_home_tbox"),
     "home_names.csv": ("tools.build_home_names", "build_home_names"),
     "place_nouns.csv": ("tools.build_place_nouns", "build_place_nouns"),

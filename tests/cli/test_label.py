@@ -45,7 +45,7 @@ def test_lint_asks_for_the_ontology_that_the_labels_name(run: Run, room: Path, t
     assert run("label", room, "own.json", "--ontology", own, "-o", "own.usda").code == 0
     done = run("label", "lint", "own.usda")
     assert done.code == 2
-    assert "the labels are classes of <https://lab.example/o>; give the file of that ontology with --ontology" in done.err
+    assert "the labels are classes of <https://lab.example/o>; give the file of that ontology" in done.err
     assert run("label", "lint", "own.usda", "--ontology", own).code == 0
 
 

@@ -44,6 +44,11 @@ class Entry(NamedTuple):
     """Empty for a noun; `material`; `adjective`; `stem` (only begins compounds); `link` and `with` (no gloss)."""
 
     @property
+    def is_spelling(self) -> bool:
+        """Whether it is no word of its own, but a spelling of inflected ones that is an English word, too."""
+        return not self.english and not self.role
+
+    @property
     def kind(self) -> _Kind:
         """Language and role; materials are inflected as nouns."""
         return self.language, "" if self.role == "material" else self.role
