@@ -1,5 +1,6 @@
 """Subclasses suggested for what has only a coarse class."""
 
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
@@ -33,6 +34,22 @@ def test_scenes_are_counted_together():
     assert one.objects == ("/A/guitar", "/B/guitar")
 
 
+def test_a_concept_has_the_superclass_of_most_of_its_objects():
+    tbox = make_tbox(make_class("Item"), make_class("Toy", "Item"), make_class("Tool", "Item"))
+    grounding = ground(make_scene(*(make_object(f"/guitar_{n}") for n in range(4))), tbox)
+
+    def suggested(*answers: tuple[str, float]) -> list[tuple[str, str, int]]:
+        changed = (
+            replace(p, class_iri=LAB + name, confidence=confidence, status=Status.GROUNDED)
+            for p, (name, confidence) in zip(grounding.predictions, answers, strict=False)
+        )
+        return summary(suggest_classes([replace(grounding, predictions=tuple(changed))], tbox))
+
+    assert suggested(("Toy", 0.9), ("Tool", 0.9), ("Toy", 0.9)) == [("guitar", "Toy", 3)]
+    # A doubtful class is not hardened.
+    assert suggested(("Toy", 0.4), ("Toy", 0.4), ("Tool", 0.9)) == [("guitar", "Item", 3)]
+
+
 def test_what_the_ontology_names_is_not_suggested():
     # A chair is an office chair here, by the head noun of the label.
     assert summary(suggest("item_1 office_chair chair_2")) == []
@@ -56,7 +73,10 @@ def test_the_file_is_an_ontology_that_grounds_to_the_suggestions(tmp_path: Path)
     extended = load_tbox(path)
     (guitar,) = [cls for cls in extended.classes if cls.label == "guitar"]
     assert guitar.parents == (LAB + "Item",)
-    assert guitar.comment == "2 objects, such as /Shop/guitar_1"
+    assert guitar.comment == ""
+    text = path.read_text("utf-8")
+    assert 'skos:editorialNote "suggested by usd2kg for 2 objects"' in text
+    assert 'skos:example "/Shop/guitar_1" , "/Shop/guitar_2"' in text
     (prediction,) = ground(make_scene(make_object("/Shop/guitar_9")), extended).predictions
     assert (prediction.class_iri, prediction.status) == (guitar.iri, Status.GROUNDED)
 

@@ -18,6 +18,8 @@ class HierarchySettings(NamedTuple):
 class SuggestionSettings(NamedTuple):
     """Suggested subclasses."""
 
+    min_class_confidence: float
+    max_examples: int
     min_confidence: float
 
 

@@ -1,6 +1,7 @@
 """Suggested subclasses for concepts that only have a coarse class in the scenes: 39 books grounded to Artifact."""
 
 import re
+from collections import Counter
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from typing import NamedTuple
@@ -8,7 +9,7 @@ from typing import NamedTuple
 import pyoxigraph as ox
 
 from usd2kg.graph.vocabulary import DCTERMS, OWL, PREFIXES, RDF, RDFS, SKOS, XSD, Triple, named_node, text
-from usd2kg.grounding import Concept, Grounding, Prediction, concepts_named
+from usd2kg.grounding import Concept, Grounding, Prediction, Status, concepts_named
 from usd2kg.ontology import ClassIRI, OntologyClass, TBox
 from usd2kg.readiness.settings import SUGGESTION
 from usd2kg.words import words_of
@@ -28,6 +29,14 @@ class Proposal(NamedTuple):
     comment: str
 
 
+class _Found(NamedTuple):
+    """The objects of one concept."""
+
+    concept: Concept
+    objects: list[str]
+    parents: Counter[ClassIRI]
+
+
 @dataclass(frozen=True)
 class SuggestedClass:
     """A class that the ontology lacks."""
@@ -36,7 +45,7 @@ class SuggestedClass:
     concept: Concept | None
     """The concept of the objects, if the label is that of the concept."""
     parent: ClassIRI
-    """The current class of the objects."""
+    """The class of most of the objects; of those with a doubtful class, the root above it."""
     objects: tuple[str, ...]
     """Prim paths, in scene order; those of several scenes follow each other."""
     proposals: tuple[Proposal, ...] = ()
@@ -52,7 +61,7 @@ def suggest_classes(groundings: Iterable[Grounding], tbox: TBox) -> list[Suggest
     """
     # Other names of a class may be kinds of it: in the home TBox, “book” is one of artifacts.
     named = {iri for cls in tbox.classes for name in (cls.label, cls.local_name) for iri in concepts_named(name)}
-    found: dict[tuple[str, ClassIRI], tuple[Concept, list[str]]] = {}
+    found: dict[str, _Found] = {}
     for grounding in groundings:
         for prediction in grounding.predictions:
             if (concept := _certain_concept(prediction, grounding)) is None or concept.iri in named:
@@ -60,11 +69,27 @@ def suggest_classes(groundings: Iterable[Grounding], tbox: TBox) -> list[Suggest
             assert prediction.class_iri is not None, "only objects with a class have a certain concept"
             if concept.iri in _concepts_of_head(tbox.by_iri[prediction.class_iri]):
                 continue
-            found.setdefault((concept.iri, prediction.class_iri), (concept, []))[1].append(prediction.prim_path)
+            one = found.setdefault(concept.iri, _Found(concept, [], Counter()))
+            one.objects.append(prediction.prim_path)
+            one.parents[_certain_class(prediction, tbox)] += 1
     suggested = (
-        SuggestedClass(concept.label, concept, parent, tuple(paths)) for (_, parent), (concept, paths) in found.items()
+        SuggestedClass(one.concept.label, one.concept, _most_frequent(one.parents), tuple(one.objects))
+        for one in found.values()
     )
     return sorted(suggested, key=lambda one: (-len(one.objects), one.label, one.parent))
+
+
+def _most_frequent(parents: Counter[ClassIRI]) -> ClassIRI:
+    return min(parents, key=lambda iri: (-parents[iri], iri))
+
+
+def _certain_class(prediction: Prediction, tbox: TBox) -> ClassIRI:
+    """Return the class of an object; the root above it if the class is doubtful."""
+    iri = prediction.class_iri
+    assert iri is not None, "only objects with a class have a certain concept"
+    if prediction.status is Status.REVIEWED or (prediction.confidence or 0.0) >= SUGGESTION.min_class_confidence:
+        return iri
+    return min((root for root in tbox.roots if root in tbox.closure(iri)), default=iri)
 
 
 def _concepts_of_head(cls: OntologyClass) -> tuple[str, ...]:
@@ -102,10 +127,13 @@ def _triples(suggested: Sequence[SuggestedClass], tbox: TBox, base: str) -> Iter
         yield node, RDFS.subClassOf, ox.NamedNode(one.parent)
         if one.concept is not None:
             yield node, SKOS.exactMatch, ox.NamedNode(one.concept.iri)
-        count = f"{len(one.objects)} objects" if len(one.objects) > 1 else "1 object"
-        yield node, RDFS.comment, text(f"{count}, such as {one.objects[0]}")
         if one.proposals:
             yield from _triples_of_proposals(one, node)
+            continue
+        count = f"{len(one.objects)} objects" if len(one.objects) > 1 else "1 object"
+        yield node, SKOS.editorialNote, text(f"suggested by usd2kg for {count}")
+        for path in one.objects[: SUGGESTION.max_examples]:
+            yield node, SKOS.example, text(path)
 
 
 def _triples_of_proposals(one: SuggestedClass, node: ox.NamedNode) -> Iterator[Triple]:
