@@ -103,7 +103,7 @@ class World(RichDisplay):
         return ask_offline(self.store, question, None if since is None else Path(since))
 
     def sparql(self, query: str) -> Answer:
-        """Return the answer to a SPARQL 1.1 query; the package's prefixes and functions are predefined.
+        """Return the answer to a SPARQL 1.1 query; prefixes and functions as for `GraphStore.sparql`.
 
         Raises:
             GraphError: the query does not parse, is an update, is too complex, or contacts another server.

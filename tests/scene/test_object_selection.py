@@ -107,29 +107,22 @@ def test_a_name_is_kept_below_wrappers_without_one(read):
     assert chosen(scene) == {"/World/Cells/Xform_1/Xform_2/ControlPanel": OWNER, "/World/Cells/Robot": OWNER}
 
 
-def test_the_only_object_of_a_group_beside_groups_of_several_is_kept(read):
-    kitchen = xform("Kitchen", xform("Sink", cube("mesh")), xform("Stove", cube("mesh")))
-    scene = read(
-        xform(
-            "World",
-            kitchen,
-            xform("Office", xform("Desk", cube("mesh"))),
-            xform("Chair_1", xform("SM_Chair", cube("mesh"))),
-        )
-    )
-    assert [path.removeprefix("/World/") for path in chosen(scene)] == [
-        "Kitchen/Sink",
-        "Kitchen/Stove",
-        "Office/Desk",
-        "Chair_1",
-    ]
+@pytest.mark.parametrize("room", ["Office", "meeting_room_2", "SM_Kitchen_01"])
+def test_the_only_object_of_a_room_is_kept(read, room):
+    hall = xform("Hallway", xform("Bench", cube("mesh")), xform("Lamp", cube("mesh")))
+    scene = read(xform("World", xform(room, xform("Desk", cube("mesh"))), hall))
+    assert [*chosen(scene)] == [f"/World/{room}/Desk", "/World/Hallway/Bench", "/World/Hallway/Lamp"]
 
 
-def test_a_wrapper_of_one_object_beside_such_wrappers_is_the_object(read):
-    scene = read(
-        xform("World", xform("Cooker", xform("Body", cube("mesh"))), xform("Bin", xform("Shell", cube("mesh"))))
+def test_a_wrapper_of_one_part_beside_groups_is_the_object(read):
+    chairs = xform(
+        "Chairs", xform("Chair_1", xform("Seat", cube("mesh"))), xform("Chair_2", xform("Seat", cube("mesh")))
     )
-    assert [*chosen(scene)] == ["/World/Cooker", "/World/Bin"]
+    scene = read(
+        xform("World", chairs, xform("Table", xform("Top", cube("mesh"))), xform("Lamp", xform("Shade", cube("x"))))
+    )
+    paths = [path.removeprefix("/World/") for path in chosen(scene)]
+    assert paths == ["Chairs/Chair_1", "Chairs/Chair_2", "Table", "Lamp"]
 
 
 def test_unknown_kind_counts_as_none(read):

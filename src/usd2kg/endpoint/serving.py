@@ -15,7 +15,7 @@ from usd2kg.endpoint.open_connections import Connections
 from usd2kg.endpoint.pool import WorkerPool
 from usd2kg.errors import GraphError, OutputError
 from usd2kg.progress import show_steps
-from usd2kg.query.dataset import declared_prefixes
+from usd2kg.query.dataset import Dataset
 from usd2kg.query.graph_file import load_graph
 from usd2kg.stores import EmbeddedStore
 
@@ -69,7 +69,7 @@ def serve(place: str, options: ServeOptions, report: Callable[[str], None]) -> N
             files=page_files(),
             title=Path(place).name,
             graphs=sorted(str(graph.value) for graph in store.named_graphs()),
-            prefixes=declared_prefixes(store),
+            prefixes=Dataset(store).prefixes,
             examples=make_examples(store),
             when_ready=lambda: report(f"serves {place} at {url_of(socket)} (SPARQL at /sparql)"),
             hosts=options.address.served_names,

@@ -14,12 +14,13 @@ if TYPE_CHECKING:
     from usd2kg.ontology.load import BUILT_IN_NAMES, load_home_tbox, load_places_tbox, load_tbox
     from usd2kg.ontology.model import ClassIRI, OntologyClass, OntologyNote, TBox, local_name
     from usd2kg.ontology.owl_write import write_functional_syntax
-    from usd2kg.ontology.prefixes import compact_iri, expand_curie
+    from usd2kg.ontology.prefixes import PREFIX_NAME, compact_iri, expand_curie
 
 __all__ = [
     "BUILT_IN_NAMES",
     "LABELS",
     "PLACES_IRI",
+    "PREFIX_NAME",
     "SOMA_HOME",
     "ClassIRI",
     "Closure",
@@ -48,6 +49,7 @@ __getattr__ = lazy_names(
         "BUILT_IN_NAMES": "load",
         "LABELS": "class_axioms",
         "PLACES_IRI": "built_in",
+        "PREFIX_NAME": "prefixes",
         "SOMA_HOME": "built_in",
         "ClassIRI": "model",
         "Closure": "closure",

@@ -1,7 +1,6 @@
 """load_tbox: ontology file → TBox."""
 
 import hashlib
-import re
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import replace
 from functools import lru_cache
@@ -16,14 +15,13 @@ from usd2kg.ontology.components import Components, find_components, reachable
 from usd2kg.ontology.documents import Document, close_imports, parse_document
 from usd2kg.ontology.equivalence import choose_representatives, equivalence_groups
 from usd2kg.ontology.model import OntologyClass, OntologyNote, TBox, local_name
-from usd2kg.ontology.prefixes import expand_curie
+from usd2kg.ontology.prefixes import PREFIX_NAME, expand_curie
 from usd2kg.ontology.scope import default_scope, isolated_classes, nearest_parents, rooted_scope
 from usd2kg.ontology.wikidata import EQUIVALENT_CLASS, item_in, pick_items
 from usd2kg.tracing import traced
 
 __all__ = ["BUILT_IN_NAMES", "load_home_tbox", "load_places_tbox", "load_tbox"]
 
-_PREFIX_NAME = re.compile(r"[A-Za-z][\w-]*", re.ASCII)
 _NO_OTHER: frozenset[str] = frozenset()
 
 
@@ -110,7 +108,7 @@ def _prefixes(own: ClassAxioms, scope: Iterable[str]) -> dict[str, str]:
     named = {
         namespace: name
         for name, namespace in sorted(own.prefixes.items(), reverse=True)
-        if namespace in namespaces and _PREFIX_NAME.fullmatch(name)
+        if namespace in namespaces and PREFIX_NAME.fullmatch(name)
     }
     return {name: namespace for namespace, name in sorted(named.items(), key=lambda item: item[1])}
 

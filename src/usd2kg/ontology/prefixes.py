@@ -1,10 +1,14 @@
 """CURIEs with well-known prefixes."""
 
+import re
 from collections.abc import Mapping
 
 from usd2kg.ontology import namespaces
 
-__all__ = ["PREFIXES", "compact_iri", "expand_curie"]
+__all__ = ["PREFIXES", "PREFIX_NAME", "compact_iri", "expand_curie"]
+
+PREFIX_NAME = re.compile(r"[A-Za-z][\w-]*", re.ASCII)
+"""A prefix that every RDF syntax allows."""
 
 PREFIXES = {
     "soma": namespaces.SOMA,

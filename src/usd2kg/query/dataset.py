@@ -10,6 +10,7 @@ from typing import Any
 import pyoxigraph as ox
 
 from usd2kg.graph.vocabulary import PREFIXES, SHACL, named_node
+from usd2kg.ontology import PREFIX_NAME
 from usd2kg.query.dataset_clause import names_dataset
 
 __all__ = [
@@ -17,7 +18,6 @@ __all__ = [
     "INDEX_NAME",
     "QUERY_PREFIXES",
     "Dataset",
-    "declared_prefixes",
     "term_list",
     "with_prefixes",
 ]
@@ -26,35 +26,21 @@ FUNCTION_NAMESPACE = "https://w3id.org/usd2kg/function#"
 """Prefix `u2kf:` in queries."""
 QUERY_PREFIXES = {**PREFIXES, "u2kf": FUNCTION_NAMESPACE}
 """Prefixes that are predefined in queries."""
-_PREFIX_NAME = re.compile(r"[A-Za-z][\w-]*", re.ASCII)
 INDEX_NAME = "index"
 """Subfolder of `Dataset.folder` with the files of the engine."""
 
 
-def with_prefixes(sparql: str) -> str:
-    """Return a query with declarations of the predefined prefixes that it uses and does not declare.
+def with_prefixes(sparql: str, prefixes: Mapping[str, str] | None = None) -> str:
+    """Return a query with declarations of the given or predefined prefixes that it uses and does not declare.
 
     >>> print(with_prefixes("ASK { ?s u2k:primPath ?p }"))
     PREFIX u2k: <https://w3id.org/usd2kg#>
     ASK { ?s u2k:primPath ?p }
     """
     declared = {name.lower() for name in re.findall(r"PREFIX\s+([\w-]*)\s*:", sparql, flags=re.IGNORECASE)}
-    used = [n for n in QUERY_PREFIXES if n not in declared and re.search(rf"(?<![\w-]){n}:", sparql)]
-    return "".join(f"PREFIX {name}: <{QUERY_PREFIXES[name]}>\n" for name in used) + sparql.strip()
-
-
-def declared_prefixes(store: ox.Store) -> dict[str, str]:
-    """Return the prefixes that queries on a store may use: those of the package, and those that its graphs declare."""
-    own: dict[str, str] = {}
-    for named in store.quads_for_pattern(None, SHACL.prefix, None, None):
-        for placed in store.quads_for_pattern(named.subject, SHACL["namespace"], None, named.graph_name):
-            if not (isinstance(named.object, ox.Literal) and isinstance(placed.object, ox.Literal)):
-                continue
-            prefix, namespace = named.object.value, placed.object.value
-            if _PREFIX_NAME.fullmatch(prefix) and named_node(namespace) is not None:
-                # Scenes with other ontologies may use the same prefix; the order in the store is arbitrary.
-                own[prefix] = min(own.get(prefix, namespace), namespace)
-    return {**own, **QUERY_PREFIXES}
+    known = QUERY_PREFIXES if prefixes is None else prefixes
+    used = [n for n in known if n not in declared and re.search(rf"(?<![\w-]){n}:", sparql)]
+    return "".join(f"PREFIX {name}: <{known[name]}>\n" for name in used) + sparql.strip()
 
 
 def term_list(nodes: Iterable[ox.NamedNode]) -> str:
@@ -84,8 +70,18 @@ class Dataset:
 
     @cached_property
     def prefixes(self) -> dict[str, str]:
-        """The predefined prefixes, and those that the graphs declare for the user's ontology."""
-        return declared_prefixes(self.store)
+        """The predefined prefixes, and those that the graphs declare for the user's ontology.
+
+        A prefix that several scenes declare for different namespaces is left out: it would mean one of them at random.
+        """
+        own: dict[str, set[str]] = {}
+        for node, name in self.quads(SHACL.prefix):
+            for space in self.objects(node, SHACL["namespace"]):
+                if not (isinstance(name, ox.Literal) and isinstance(space, ox.Literal)):
+                    continue
+                if PREFIX_NAME.fullmatch(name.value) and named_node(space.value) is not None:
+                    own.setdefault(name.value, set()).add(space.value)
+        return {**{prefix: iris.pop() for prefix, iris in own.items() if len(iris) == 1}, **QUERY_PREFIXES}
 
     def __len__(self) -> int:
         """Return the number of triples; those of several graphs count each time."""

@@ -13,7 +13,7 @@ from usd2kg.query.answer import Answer, join_answers, make_answer, with_columns
 from usd2kg.query.bodies import BodyIndex
 from usd2kg.query.body_table import parse_vector
 from usd2kg.query.complexity import check_complexity
-from usd2kg.query.dataset import Dataset, term_list
+from usd2kg.query.dataset import QUERY_PREFIXES, Dataset, term_list, with_prefixes
 from usd2kg.query.functions import make_functions
 from usd2kg.query.lookup import Nouns, SceneFacts
 from usd2kg.query.questions import Parameter, Question, find_question, parse_number
@@ -91,13 +91,17 @@ class GraphStore:
         return self._facts
 
     def sparql(self, query: str) -> Answer:
-        """Return the answer to a SPARQL 1.1 query; the package's prefixes and functions are predefined.
+        """Return the answer to a SPARQL 1.1 query.
+
+        The package's functions and prefixes, and the prefixes of the user's ontology are predefined.
 
         Raises:
             GraphError: the query does not parse, is an update, is too complex, or contacts another server.
         """
         check_complexity(query)
-        return self._run(query)
+        found = self._run(query)
+        own = {name: iri for name, iri in self._dataset.prefixes.items() if name not in QUERY_PREFIXES}
+        return replace(found, sparql=with_prefixes(query, own))
 
     def hints(self, query: str) -> list[str]:
         """Return a line for each name in a query that the graph does not have: a misspelt property, a graph of FROM."""

@@ -31,7 +31,7 @@ _MOST_EXPECTED = 9
 def describe_syntax_error(query: str, error: SyntaxError, prefixes: Mapping[str, str] = QUERY_PREFIXES) -> str:
     """Return one line: where the query does not parse, what is there, and what was expected.
 
-    Predefined are the given prefixes.
+    `prefixes` are predefined.
 
     >>> try:
     ...     ox.Store().query("SELECT * { ?s foo:bar ?o }")

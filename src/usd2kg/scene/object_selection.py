@@ -27,6 +27,7 @@ _BODY = "rigid body"
 _COMPONENT = "component"
 _STRUCTURE_KINDS = frozenset({"assembly", "group"})
 _GROUPING_WORDS = word_set("scene", "grouping_words")
+_ROOM_WORDS = word_set("scene", "room_words")
 _MIN_NESTED_ASSETS = 2
 """Least number of nested assets that make a referenced prim a set of objects."""
 _MAX_LISTED = 3
@@ -227,8 +228,6 @@ class _Cover:
     """Whether there are candidates at or below the prim."""
     owners: list[PrimRecord] = field(default_factory=list)
     """The prims that own them."""
-    inner: PrimRecord | None = None
-    """The only owner below the prim, of another name; the prim replaces it unless it is a group as its siblings are."""
 
 
 def _geometry_owners(root: PrimRecord, candidates: dict[str, str]) -> dict[str, str]:
@@ -253,7 +252,6 @@ def _cover(record: PrimRecord, candidates: dict[str, str], covers: dict[str, _Co
     if record.path in candidates:
         return _Cover(holds_objects=True)
     below = [covers.pop(child.path) for child in record.children]
-    _keep_lone_members_of_groups(below)
     cover = _Cover(holds_objects=any(c.holds_objects for c in below))
     is_own = record.is_gprim and not record.is_hidden
     cover.uncovered = is_own + sum(c.uncovered for c in below)
@@ -261,24 +259,7 @@ def _cover(record: PrimRecord, candidates: dict[str, str], covers: dict[str, _Co
         cover.owners = [record]
     elif cover.uncovered:
         cover.owners = _owners_at(record, cover, below)
-        cover.inner = _inner_owner(record, cover, below)
     return cover
-
-
-def _keep_lone_members_of_groups(siblings: list[_Cover]) -> None:
-    """Keep the only object of a group beside groups of several: Kitchen/{Sink, Stove} beside Office/Desk."""
-    if any(len(cover.owners) > 1 for cover in siblings):
-        for cover in siblings:
-            if cover.inner is not None:
-                cover.owners = [cover.inner]
-
-
-def _inner_owner(record: PrimRecord, cover: _Cover, below: list[_Cover]) -> PrimRecord | None:
-    found = [owner for c in below for owner in c.owners]
-    if cover.owners != [record] or len(found) != 1 or found[0].is_gprim or is_unnamed(found[0].name):
-        return None
-    has_other_name = set(words_of(record.name)).isdisjoint(words_of(found[0].name))
-    return found[0] if has_other_name else None
 
 
 def _owners_at(record: PrimRecord, cover: _Cover, below: list[_Cover]) -> list[PrimRecord]:
@@ -288,14 +269,20 @@ def _owners_at(record: PrimRecord, cover: _Cover, below: list[_Cover]) -> list[P
     if has_gprims and not is_grouping:
         return [record]
     is_lone_root = _is_lone_root(record) and not cover.holds_objects
-    # A name is kept below wrappers without one: Xform_2/ControlPanel/mesh.
-    says_less = is_unnamed(record.name) and len(found) == 1 and not is_unnamed(found[0].name)
+    # A name is kept below wrappers without one (Xform_2/ControlPanel/mesh) and in rooms (Office/Desk/mesh).
+    says_less = len(found) == 1 and not is_unnamed(found[0].name) and _says_less(record.name, found[0])
     if len(found) == 1 and (is_lone_root or not is_grouping) and not says_less:
         return [record]
     # A named prim with unnamed pieces: Chair/group_1/mesh_7.
     if not is_grouping and not is_unnamed(record.name) and all(is_unnamed(owner.name) for owner in found):
         return [record]
     return found
+
+
+def _says_less(name: str, owner: PrimRecord) -> bool:
+    """Return whether the name of a prim says less of what it is than that of the only owner below it."""
+    is_room = not _ROOM_WORDS.isdisjoint(words_of(name)[-1:])
+    return is_unnamed(name) or (is_room and not owner.is_gprim)
 
 
 def _is_grouping(record: PrimRecord, holds_objects: bool) -> bool:

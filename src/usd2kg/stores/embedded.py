@@ -12,7 +12,6 @@ import pyoxigraph as ox
 
 from usd2kg.errors import GraphError, StoreError, one_line
 from usd2kg.folder_lock import LOCK_NAME, lock_exclusive, lock_shared, release_when_unused
-from usd2kg.graph.vocabulary import PREFIXES
 from usd2kg.query.answer import Answer
 from usd2kg.query.complexity import check_complexity
 from usd2kg.query.dataset import Dataset
@@ -112,7 +111,7 @@ class EmbeddedStore:
             keep_reserve(self._folder)
 
     def update(self, sparql: str) -> None:
-        """Run a SPARQL 1.1 update atomically; the package's prefixes are predefined.
+        """Run a SPARQL 1.1 update atomically; the prefixes of the package and of the graphs are predefined.
 
         Raises:
             GraphError: the update does not parse, is nested too deep, or contacts another server.
@@ -123,7 +122,7 @@ class EmbeddedStore:
             raise GraphError(REMOTE_UPDATE)
         with self._writing() as store:
             try:
-                store.update(sparql, prefixes=PREFIXES)
+                store.update(sparql, prefixes=Dataset(store).prefixes)
                 store.flush()
             except SyntaxError as error:
                 raise GraphError(f"update: not valid SPARQL ({one_line(error)})") from error
