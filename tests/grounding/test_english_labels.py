@@ -54,6 +54,13 @@ def test_german_names_are_found_with_modifiers_and_umlauts(german: TBox):
     assert classes_of(german, *names) == ["Stuhl"] * 4 + ["Karton"]
 
 
+def test_names_that_are_also_english_words_are_found_as_they_are_written(tmp_path: Path):
+    words = ("Regal", "Brief", "Bad", "Angel", "Stern", "Mantel", "Bank", "Hammer")
+    tbox = load(tmp_path, 'Ding: rdfs:label "Ding"@de', *(f'{word}: rdfs:label "{word}"@de' for word in words))
+    assert classes_of(tbox, *(f"{word}_3" for word in words)) == [*words]
+    assert classes_of(tbox, "shelf_2", "coat", "bench", "hammer") == ["Regal", "Mantel", "Bank", "Hammer"]
+
+
 def test_labels_in_the_file_stay_as_they_are(german: TBox):
     wall = german.resolve("Wand")
     assert (german.by_iri[wall].label, german.by_iri[wall].foreign_names) == ("Wand", (("de", "Wand"),))
@@ -87,6 +94,13 @@ def test_a_name_that_might_be_foreign_is_english_among_english_names(tmp_path: P
     # `media` is Spanish for half.
     tbox = load(tmp_path, "Item: rdfs:label 'item'", "Media: rdfs:label 'media'", "Furniture: rdfs:label 'furniture'")
     assert in_english(tbox) is tbox
+
+
+def test_a_name_of_an_equivalent_class_may_be_english(tmp_path: Path):
+    (tmp_path / "t.ttl").write_text(
+        f'{HEAD} :T rdfs:subClassOf :X ; rdfs:label "Tank"@de ; owl:equivalentClass :U . :U rdfs:label "Tank"@en .'
+    )
+    assert [cls.foreign_names for cls in load_tbox(tmp_path / "t.ttl").classes] == [(), ()]
 
 
 def test_an_english_ontology_is_unchanged(tmp_path: Path):

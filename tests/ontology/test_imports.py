@@ -283,6 +283,13 @@ def test_an_import_with_fewer_classes_is_a_hierarchy_to_place_classes_in(write_t
     assert names(tbox) == ["Beaker", "Cup", "Mug"]
 
 
+def test_an_import_that_is_not_used_is_not_extended(write_turtle):
+    text = ":Instant rdfs:subClassOf :Time . :Interval rdfs:subClassOf :Time . :Year rdfs:subClassOf :Time ."
+    write_turtle(ontology("http://example.com/time") + text, "time.ttl")
+    path = write_turtle(ontology("http://example.com/own", "http://example.com/time") + ":Cup rdfs:subClassOf :Ware .")
+    assert names(load_tbox(path)) == ["Cup", "Ware"]
+
+
 def test_built_in_ontologies_stand_in_for_imports(write_turtle):
     home = load_home_tbox()
     tbox = load_tbox(

@@ -50,6 +50,26 @@ def test_a_concept_has_the_superclass_of_most_of_its_objects():
     assert suggested(("Toy", 0.4), ("Toy", 0.4), ("Tool", 0.9)) == [("guitar", "Item", 3)]
 
 
+def test_without_a_majority_the_common_superclass_is_the_parent():
+    tbox = make_tbox(
+        make_class("Item"), make_class("Tool", "Item"), make_class("Saw", "Tool"), make_class("Axe", "Tool")
+    )
+    grounding = ground(make_scene(*(make_object(f"/guitar_{n}") for n in range(3))), tbox)
+    changed = (
+        replace(p, class_iri=LAB + name, confidence=0.9, status=Status.GROUNDED)
+        for p, name in zip(grounding.predictions, ("Saw", "Axe", "Item"), strict=True)
+    )
+    found = suggest_classes([replace(grounding, predictions=tuple(changed))], tbox)
+    assert summary(found) == [("guitar", "Tool", 3)]
+
+
+def test_classes_with_foreign_labels_are_not_suggested():
+    tbox = make_tbox(
+        make_class("Item"), replace(make_class("C1", "Item", label="Stuhl"), foreign_names=(("de", "Stuhl"),))
+    )
+    assert summary(suggest("chair_1 guitar", tbox)) == [("guitar", "Item", 1)]
+
+
 def test_what_the_ontology_names_is_not_suggested():
     # A chair is an office chair here, by the head noun of the label.
     assert summary(suggest("item_1 office_chair chair_2")) == []

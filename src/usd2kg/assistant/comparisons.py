@@ -194,7 +194,7 @@ class ComparisonAnswers(Answers):
         else:
             placed = thing_to_place(self._nouns, facts, thing)
         name, (width, depth, _), moved = placed
-        flat = flat_tops(self._nouns)
+        flat = flat_tops(self._nouns, facts)
         if not any(iri in facts.supporters or iri in flat for iri in surfaces.iris):
             raise GraphError(f"not known: nothing stands on {surfaces.text}, so the height of its top is unknown")
         places = find_free_places(facts, placed.size, surfaces.iris, moved, flat)

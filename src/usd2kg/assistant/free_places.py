@@ -11,6 +11,7 @@ from usd2kg.assistant.settings import PLACING
 from usd2kg.assistant.usual_sizes import usual_size
 from usd2kg.errors import GraphError
 from usd2kg.knowledge import word_set
+from usd2kg.query.body_table import Body
 from usd2kg.query.lookup import Nouns, SceneFacts
 
 __all__ = ["FreePlace", "PlacedThing", "find_free_places", "flat_tops", "thing_to_place"]
@@ -84,7 +85,7 @@ def find_free_places(
         row = rows.get(iri)
         bottoms = [table.lower[rows[one], 2] for one in facts.related("on", iri) if one in rows]
         level = _highest_level(bottoms)
-        if row is not None and not bottoms and iri in flat and table.upper[row, 2] <= PLACING.max_flat_top:
+        if row is not None and not bottoms and iri in flat:
             level = float(table.upper[row, 2])
         if row is None or np.isnan(table.lower[row]).any() or np.isnan(level):
             continue
@@ -97,9 +98,20 @@ def find_free_places(
     return sorted(found, key=lambda place: (round(place.occupied, 2), place.surface))
 
 
-def flat_tops(nouns: Nouns) -> set[str]:
-    """Return the things whose tops are level by what they are, such as tables."""
-    return {iri for noun in sorted(word_set("assistant", "flat_tops")) for iri in nouns.known(noun)}
+def flat_tops(nouns: Nouns, facts: SceneFacts) -> set[str]:
+    """Return the things whose tops are level by what they are, such as tables, if they are within reach."""
+    found = {iri for noun in sorted(word_set("assistant", "flat_tops")) for iri in nouns.known(noun)}
+    floors = [float(body.upper[2]) for body in map(facts.body, nouns.floors) if body.upper is not None]
+    return {iri for iri in found if _is_within_reach(facts.body(iri), floors)}
+
+
+def _is_within_reach(body: Body, floors: list[float]) -> bool:
+    if body.lower is None or body.upper is None:
+        return False
+    bottom, top = float(body.lower[2]), float(body.upper[2])
+    # Of several storeys, the floor below the thing.
+    floor = max((level for level in floors if level < bottom + PLACING.level), default=min(floors, default=0.0))
+    return top - bottom <= PLACING.max_flat_top and top - floor <= PLACING.max_height
 
 
 def _highest_level(bottoms: list[float]) -> float:

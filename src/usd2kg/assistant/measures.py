@@ -219,7 +219,7 @@ class MeasureAnswers(Answers):
         floors = self._nouns.floors
         # What stands on the floor, such as a cart, has its place there.
         is_on_floor = bool(moved) and all(floors.intersection(facts.anchors("on", iri)) for iri in moved)
-        flat = flat_tops(self._nouns)
+        flat = flat_tops(self._nouns, facts)
         tops = floors if is_on_floor else (facts.supporters | flat) - floors
         surfaces = [iri for iri in facts.things if iri in tops and iri not in moved]
         usual = {iri for noun in sorted(word_set("assistant", "surface_nouns")) for iri in self._nouns.known(noun)}

@@ -65,6 +65,8 @@ class _Attempt(NamedTuple):
 _COMPOSED = word_set("assistant", "composed_types")
 """Question types that composition reads in any words: what it does not read of them, a pattern may have misread."""
 
+_ROOM_FOR = "fits"
+"""Question type that asks what is possible (`can I put it there?`), where composition reads what is."""
 _LISTS = frozenset(["all", "is-there", "noun"])
 """Question types whose sentence has less of the question than that of the composed answer."""
 
@@ -175,6 +177,8 @@ class _Answerer:
         if composed.answer is None:
             if self._is_english and matched.question in _COMPOSED:
                 raise GraphError(composed.problem or self._advice(text, matched))
+            return matched.answer
+        if matched.question == _ROOM_FOR:
             return matched.answer
         if not contradict(composed.answer, matched.answer):
             return composed.answer if matched.question in _LISTS else matched.answer

@@ -67,7 +67,7 @@ def make_server(
         return _table(_call(lambda: graph.answer(id, parameters or {})))
 
     def sparql(query: str) -> dict[str, Any]:
-        """Run a read-only SPARQL 1.1 query; prefixes of the ontology, and rdf, rdfs, owl, soma, dul, usd, u2k, u2kf are defined."""
+        """Run a read-only SPARQL 1.1 query; prefixes of usd2kg (soma, u2k, u2kf, …) and of the ontology are defined."""
         return _table(_call(lambda: run_query(query)))
 
     for function in (objects, look_up, ask, questions, ready_question, sparql):

@@ -72,7 +72,9 @@ def build_command(
     if store is not None:
         check_graph_names([base or default_base(str(scene)) for scene in scenes])
         opened = open_for_loading(store, store_update, store_data)
-    steps = SceneBuild(grounding, reading, spatial, annotation, profile, carry_over)
+    # One file of decisions may be about several scenes.
+    own = carry_over if len(scenes) == 1 else None
+    steps = SceneBuild(grounding, reading, spatial, annotation, profile, own)
     steps.check()
     tbox = open_tbox(ontology) if ontology is not None else None
     if tbox is not None:

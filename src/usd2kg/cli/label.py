@@ -50,7 +50,7 @@ def write_command(
         Path,
         Argument(
             metavar="RUN",
-            help="Mapping written by usd2kg ground, review queue with decisions, or graph (.csv, .json, .ttl, …).",
+            help="Mapping of usd2kg ground, review queue with decisions, or graph (.csv, .json, .tsv, .ttl, …).",
         ),
     ],
     output: Annotated[
@@ -192,12 +192,12 @@ def lint_command(
     from usd2kg.progress import show_steps  # noqa: PLC0415
 
     with show_steps("ontology", "parse", "lint", is_wanted=not json):
-        # The built-in TBox of places has the classes of both.
         others = ontologies_of_labels(scene) - {SOMA_HOME, PLACES_IRI} if ontology is None else set()
         if others:
             raise GroundingError(
                 f"{scene}: the labels are classes of <{min(others)}>; give the file of that ontology with --ontology"
             )
+        # The built-in TBox of places has the classes of both.
         tbox = open_tbox(ontology, stated=(PLACES_IRI,))
         classes = read_prim_classes(run, tbox) if run is not None else None
         lint = lint_stage(scene, tbox, classes, reading.read_options())

@@ -34,7 +34,10 @@ app = typer.Typer(
 _File = Annotated[Path | None, Argument(metavar="[FILE]", help="OWL file; default: the built-in home ontology.")]
 _Roots = Annotated[
     list[str] | None,
-    Option("--root", help="IRI or CURIE of a class; the scope is its subclasses and itself. Repeatable; default: all."),
+    Option(
+        "--root",
+        help="IRI, CURIE, local name or label of a class; the scope is it with its subclasses. Repeatable; default: all.",
+    ),
 ]
 _Registry = Annotated[
     Path | None, Option("--registry", help="TOML file of known ontologies; default: the built-in list.")

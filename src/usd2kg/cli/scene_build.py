@@ -2,7 +2,7 @@
 
 from collections.abc import Iterator
 from contextlib import contextmanager
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -28,7 +28,7 @@ class SceneBuild:
     spatial: SpatialOptions
     annotation: AnnotationOptions
     profile: str
-    carry_over: CarryOverOptions = field(default_factory=CarryOverOptions)
+    carry_over: CarryOverOptions | None = None
 
     def check(self) -> None:
         """Check the options before a scene is read.

@@ -11,7 +11,7 @@ from usd2kg.rich_display import RichDisplay
 
 __all__ = ["PERSON", "Candidate", "Concept", "Decision", "Grounding", "Prediction", "Review", "Status", "reviewer_iri"]
 
-_ORCID = re.compile(r"(?:https?://orcid\.org/|orcid:)?(\d{4}-\d{4}-\d{4}-\d{3}[\dX])", re.ASCII | re.IGNORECASE)
+_ORCID = re.compile(r"(?:(?:https?://)?orcid\.org/|orcid:)?(\d{4}-\d{4}-\d{4}-\d{3}[\dX])/?", re.ASCII | re.IGNORECASE)
 PERSON = "person"
 """The grounder id of a decision about an object that was not grounded."""
 
@@ -63,7 +63,7 @@ def reviewer_iri(reviewer: str) -> str:
     ('https://orcid.org/0000-0002-1825-0097', 'Ada')
     """
     found = _ORCID.fullmatch(reviewer.strip())
-    return f"https://orcid.org/{found[1]}" if found else reviewer
+    return f"https://orcid.org/{found[1].upper()}" if found else reviewer
 
 
 @dataclass(frozen=True, slots=True)

@@ -141,7 +141,8 @@ class _Entries(Sequence[Entry]):
 
     def __init__(self) -> None:
         header, *self._lines = read_text("glosses.csv").splitlines()
-        assert header == "language,word,english,homograph,role"
+        if header != "language,word,english,homograph,role":
+            raise ValueError(f"glosses.csv has the columns {header}; build it again with make data")
 
     def __getitem__(self, index: Any) -> Any:
         # No cell is quoted: there are no commas in words.

@@ -1,7 +1,7 @@
 """Class axioms of an ontology as plain dictionaries, independent of its syntax."""
 
 from collections import defaultdict
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field
 
 from usd2kg.ontology.namespaces import DCTERMS, OBO, OWL, RDFS, SKOS, SOMA
@@ -16,6 +16,7 @@ __all__ = [
     "TOP_CLASSES",
     "Annotations",
     "ClassAxioms",
+    "foreign_texts",
     "merge_axioms",
 ]
 
@@ -60,21 +61,23 @@ class Annotations:
                 return min(self.texts[name], key=_language_rank)[1]
         return ""
 
-    def foreign_texts(self, properties: Iterable[str]) -> dict[str, str]:
-        """Return text → tag of those that are tagged with other languages than English, and with no other tag."""
-        found: dict[str, set[str]] = defaultdict(set)
-        for name in properties:
-            for language, text in self.texts.get(name, ()):
-                found[text].add(language)
-        return {
-            text: min(tags)
-            for text, tags in found.items()
-            if all(tag and tag.lower().split("-")[0] != "en" for tag in tags)
-        }
-
     def all_texts(self, properties: Iterable[str]) -> set[str]:
         """Return the texts of the properties in all languages."""
         return {text for name in properties for _, text in self.texts.get(name, ())}
+
+
+def foreign_texts(several: Iterable[Annotations], properties: Sequence[str]) -> dict[str, str]:
+    """Return text → tag of those that are tagged with other languages than English, and with no other tag."""
+    found: dict[str, set[str]] = defaultdict(set)
+    for annotations in several:
+        for name in properties:
+            for language, text in annotations.texts.get(name, ()):
+                found[text].add(language)
+    return {text: min(tags) for text, tags in found.items() if all(map(_is_foreign, tags))}
+
+
+def _is_foreign(tag: str) -> bool:
+    return bool(tag) and tag.lower().split("-")[0] != "en"
 
 
 def _language_rank(tagged: tuple[str, str]) -> tuple[int, str, str]:

@@ -10,7 +10,7 @@ from pathlib import Path
 from usd2kg.errors import OntologyError
 from usd2kg.knowledge import data_file
 from usd2kg.ontology.built_in import BUILT_IN, HOME, PLACES, SOMA_HOME
-from usd2kg.ontology.class_axioms import ALT_LABELS, DEFINITIONS, LABELS, ClassAxioms, merge_axioms
+from usd2kg.ontology.class_axioms import ALT_LABELS, DEFINITIONS, LABELS, ClassAxioms, foreign_texts, merge_axioms
 from usd2kg.ontology.components import Components, find_components, reachable
 from usd2kg.ontology.documents import Document, close_imports, parse_document
 from usd2kg.ontology.equivalence import choose_representatives, equivalence_groups
@@ -139,12 +139,14 @@ def _scope(
 
 
 def _class_named(name: str, own: ClassAxioms, closure: ClassAxioms) -> str:
-    """Return the IRI for an IRI, a CURIE, or a local name or label that one class has; other text as it is."""
+    """Return the IRI for an IRI, a CURIE, or a local name or else a label that one class has; other text as it is."""
+    name = name.strip().removeprefix("<").removesuffix(">")
     iri = expand_curie(name, own.prefixes)
     if iri in closure.classes:
         return iri
-    named = {iri for iri in closure.classes if name in {local_name(iri), _label(iri, closure)}}
-    return named.pop() if len(named) == 1 else iri
+    named = [one for one in closure.classes if local_name(one) == name]
+    named = named or [one for one in closure.classes if _label(one, closure).casefold() == name.casefold()]
+    return named[0] if len(named) == 1 else iri
 
 
 def _hash(documents: Iterable[Document]) -> str:
@@ -160,7 +162,7 @@ def _class(
     label = _label(iri, closure)
     others = {text for each in annotations for text in each.all_texts((*LABELS, *ALT_LABELS))}
     others |= {_label(same, closure) for same in equivalents}
-    foreign = {text: tag for each in annotations for text, tag in each.foreign_texts((*LABELS, *ALT_LABELS)).items()}
+    foreign = foreign_texts(annotations, (*LABELS, *ALT_LABELS))
     return OntologyClass(
         iri=iri,
         label=label,

@@ -34,8 +34,8 @@ def ancestors(superclasses: Mapping[str, set[str]], iri: str) -> set[str]:
 def default_scope(own: ClassAxioms, closure: ClassAxioms, imported: Iterable[ClassAxioms] = ()) -> set[str]:
     """Return the classes that `own` places in the hierarchy and that `closure` classifies as physical objects.
 
-    If none is below a class of `PHYSICAL_ROOTS`, all are kept. A document that places fewer classes than one that it
-    imports extends that one, whose classes are then in scope, too.
+    If none is below a class of `PHYSICAL_ROOTS`, all are kept. A document extends an import that places more classes,
+    one of which it uses; the classes of that import are then in scope, too.
     """
     superclasses = closure.superclasses()
     subclasses = _invert(superclasses)
@@ -46,7 +46,8 @@ def default_scope(own: ClassAxioms, closure: ClassAxioms, imported: Iterable[Cla
     placed = _placed(own, closure)
     scope = placed & physical or placed
     others = [_placed(axioms, closure) & physical if physical else _placed(axioms, closure) for axioms in imported]
-    return scope.union(*(classes for classes in others if len(classes) > len(scope)))
+    extended = (found for found in others if len(found) > len(scope) and (not scope or found & scope))
+    return scope.union(*extended)
 
 
 def _placed(axioms: ClassAxioms, closure: ClassAxioms) -> set[str]:

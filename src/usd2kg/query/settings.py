@@ -40,6 +40,7 @@ class LookupSettings(NamedTuple):
     min_label_similarity: float
     max_suggestions: int
     max_listed: int
+    same_gap: float
 
 
 class WordSettings(NamedTuple):

@@ -23,8 +23,9 @@ class ClassSenses:
 
     def __init__(self, tbox: TBox) -> None:
         self._tbox = tbox
+        self._english = in_english(tbox)
         self._taxonomy = load_taxonomy()
-        self._lexicon = build_lexicon(in_english(tbox), self._taxonomy, home_names())
+        self._lexicon = build_lexicon(self._english, self._taxonomy, home_names())
         self._aligned = {aligned.class_iri for aligned in self._lexicon.sense_classes.values()}
         self._categories = {
             member.aligned.class_iri
@@ -61,11 +62,13 @@ class ClassSenses:
 
     def rival(self, cls: OntologyClass) -> Term | None:
         """Return the term of another class that takes precedence for the label of a class; None if there is none."""
-        return None if cls.iri in self.names else self._lexicon.terms.get(term_key(cls.label, self._taxonomy))
+        label = self._english.by_iri[cls.iri].label
+        return None if cls.iri in self.names else self._lexicon.terms.get(term_key(label, self._taxonomy))
 
     def common_noun(self, cls: OntologyClass) -> str:
         """Return a noun of the taxonomy among the words of a class; empty if there is none."""
-        for text in (cls.label, *cls.alt_labels):
+        english = self._english.by_iri[cls.iri]
+        for text in (english.label, *english.alt_labels):
             for word in reversed(words_of(text)):
                 if (noun := self._taxonomy.singular(word)) in self._taxonomy:
                     return noun

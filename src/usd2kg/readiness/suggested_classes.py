@@ -10,6 +10,7 @@ import pyoxigraph as ox
 
 from usd2kg.graph.vocabulary import DCTERMS, OWL, PREFIXES, RDF, RDFS, SKOS, XSD, Triple, named_node, text
 from usd2kg.grounding import Concept, Grounding, Prediction, Status, concepts_named
+from usd2kg.grounding.lexical.alignment.english_labels import in_english
 from usd2kg.ontology import ClassIRI, OntologyClass, TBox
 from usd2kg.readiness.settings import SUGGESTION
 from usd2kg.words import words_of
@@ -45,7 +46,7 @@ class SuggestedClass:
     concept: Concept | None
     """The concept of the objects, if the label is that of the concept."""
     parent: ClassIRI
-    """The class of most of the objects; of those with a doubtful class, the root above it."""
+    """The lowest class that more than half of the objects have; those with a doubtful class count for its root."""
     objects: tuple[str, ...]
     """Prim paths, in scene order; those of several scenes follow each other."""
     proposals: tuple[Proposal, ...] = ()
@@ -60,27 +61,33 @@ def suggest_classes(groundings: Iterable[Grounding], tbox: TBox) -> list[Suggest
         tbox: the ontology of the groundings.
     """
     # Other names of a class may be kinds of it: in the home TBox, “book” is one of artifacts.
-    named = {iri for cls in tbox.classes for name in (cls.label, cls.local_name) for iri in concepts_named(name)}
+    english = in_english(tbox).by_iri
+    named = {iri for cls in english.values() for name in (cls.label, cls.local_name) for iri in concepts_named(name)}
     found: dict[str, _Found] = {}
     for grounding in groundings:
         for prediction in grounding.predictions:
             if (concept := _certain_concept(prediction, grounding)) is None or concept.iri in named:
                 continue
             assert prediction.class_iri is not None, "only objects with a class have a certain concept"
-            if concept.iri in _concepts_of_head(tbox.by_iri[prediction.class_iri]):
+            if concept.iri in _concepts_of_head(english[prediction.class_iri]):
                 continue
             one = found.setdefault(concept.iri, _Found(concept, [], Counter()))
             one.objects.append(prediction.prim_path)
             one.parents[_certain_class(prediction, tbox)] += 1
     suggested = (
-        SuggestedClass(one.concept.label, one.concept, _most_frequent(one.parents), tuple(one.objects))
+        SuggestedClass(one.concept.label, one.concept, _common_parent(one.parents, tbox), tuple(one.objects))
         for one in found.values()
     )
     return sorted(suggested, key=lambda one: (-len(one.objects), one.label, one.parent))
 
 
-def _most_frequent(parents: Counter[ClassIRI]) -> ClassIRI:
-    return min(parents, key=lambda iri: (-parents[iri], iri))
+def _common_parent(parents: Counter[ClassIRI], tbox: TBox) -> ClassIRI:
+    """Return the lowest class that more than half of the objects have; the most frequent one if there is none."""
+    above = Counter[ClassIRI]()
+    for iri, count in parents.items():
+        above.update(dict.fromkeys(tbox.closure(iri), count))
+    shared = [iri for iri, count in above.items() if 2 * count > parents.total()]
+    return max(shared or parents, key=lambda iri: (tbox.depths[iri] if shared else 0, above[iri], iri))
 
 
 def _certain_class(prediction: Prediction, tbox: TBox) -> ClassIRI:

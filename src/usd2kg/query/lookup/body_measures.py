@@ -12,6 +12,7 @@ from usd2kg.knowledge import word_map, word_set
 from usd2kg.query.body_table import Body
 from usd2kg.query.lookup.facts import SceneFacts
 from usd2kg.query.lookup.things import Things
+from usd2kg.query.settings import LOOKUP
 
 __all__ = [
     "AREA",
@@ -29,10 +30,6 @@ __all__ = [
     "Measure",
     "nearest_of",
 ]
-
-
-_SAME_GAP_M = 0.001
-"""Difference of distances up to which things are equally near."""
 
 
 class Measure(NamedTuple):
@@ -113,9 +110,9 @@ SAME = 0.005
 
 
 def nearest_of(gaps: Mapping[str, float], sign: int = 1) -> list[str]:
-    """Return the things with the least distance, or the largest if the sign is -1: several within a millimetre."""
+    """Return the things with the least distance, or the largest if the sign is -1; several if these are equal."""
     least = min((sign * gap for gap in gaps.values()), default=0.0)
-    return [iri for iri, gap in gaps.items() if sign * gap <= least + _SAME_GAP_M]
+    return [iri for iri, gap in gaps.items() if sign * gap <= least + LOOKUP.same_gap]
 
 
 class BodyMeasures:

@@ -206,9 +206,12 @@ class Nouns(PlaceNouns):
         if not exact or len(exact) == len(found.iris):
             return found
         self.guesses.append(f"“{text}” was read as {len(exact)} of {len(found.iris)} things that may be meant")
-        others = [self._facts.label(iri) for iri in found.iris if iri not in exact]
-        listed = [*others[: LOOKUP.max_suggestions], *(["others"] if len(others) > LOOKUP.max_suggestions else ())]
-        return replace(found, iris=exact, note=f"there are also {', '.join(listed)}")
+        others = list(dict.fromkeys(self._facts.label(iri) for iri in found.iris if iri not in exact))
+        left = len(others) - LOOKUP.max_suggestions
+        *first, last = [*others[: LOOKUP.max_suggestions], *([f"{left} more"] if left > 0 else [])]
+        listed = f"{', '.join(first)} and {last}" if first else last
+        note = f"there {'is' if len(others) == 1 else 'are'} also {listed}"
+        return replace(found, iris=exact, note="; ".join(filter(None, (found.note, note))))
 
     def for_purpose(self, verb: str) -> Things:
         """Return the things for a purpose, those of the kinds that it names: cleaning equipment.

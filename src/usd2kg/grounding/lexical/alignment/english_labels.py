@@ -12,7 +12,7 @@ from usd2kg.ontology import ClassIRI, OntologyClass, TBox
 from usd2kg.table_cache import open_table_cache
 from usd2kg.words import words_of
 
-__all__ = ["as_text", "has_foreign_name", "in_english"]
+__all__ = ["as_text", "foreign_names_only", "has_foreign_name", "in_english"]
 
 
 class _Names(NamedTuple):
@@ -26,10 +26,10 @@ class _Names(NamedTuple):
 
 @lru_cache(maxsize=8)
 def in_english(tbox: TBox) -> TBox:
-    """Return the TBox with German, Spanish, French and Italian names of its classes replaced by their translation.
+    """Return the TBox with German, Spanish, French and Italian labels of its classes replaced by their translation.
 
     The language of a name is its tag; that of names without a tag is the one that most of them reveal. A name that the
-    glossaries lack stays as it is: it may be a cognate (“Sofa”), or match the name of an object as it is written.
+    glossaries lack stays as it is: it may be a cognate (“Sofa”). The foreign names become synonyms.
     """
     names = open_table_cache(as_text(tbox)).get("english-labels", _decode, lambda: _translate(tbox), dict)
     if not names:
@@ -44,6 +44,13 @@ def as_text(tbox: TBox) -> Iterator[str]:
     for cls in tbox.classes:
         foreign = (f"{language} {name}" for language, name in cls.foreign_names)
         yield "\n".join((cls.iri, cls.label, cls.comment, *cls.alt_labels, "", *cls.parents, "", *foreign))
+
+
+def foreign_names_only(cls: OntologyClass) -> set[str]:
+    """Return the names of a class that are foreign, and not English as well (“Hammer”)."""
+    foreign = {name for _, name in cls.foreign_names}
+    english = {words_of(name) for name in (cls.label, *cls.alt_labels) if name not in foreign}
+    return {name for name in foreign if words_of(name) not in english}
 
 
 def has_foreign_name(cls: OntologyClass, name: str) -> bool:
@@ -109,5 +116,6 @@ def _translate_class(cls: OntologyClass, foreign: Mapping[str, str]) -> _Names:
         others = {name for name in cls.alt_labels if english(name) is None or translate(words_of(name)) is not None}
         return _Names(cls.label, tuple(sorted(others)), tagged)
     label = english(cls.label) or cls.label
-    others = {english(name) or name for name in cls.alt_labels} - {label}
-    return _Names(label, tuple(sorted(others)), tagged)
+    # As they are written, too: `Regal_3` is read as English, since “regal” is an English word.
+    others = {english(name) or name for name in cls.alt_labels} | foreign.keys()
+    return _Names(label, tuple(sorted(others - {label})), tagged)

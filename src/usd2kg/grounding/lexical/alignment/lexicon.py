@@ -5,7 +5,7 @@ from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import NamedTuple
 
-from usd2kg.grounding.lexical.alignment.english_labels import has_foreign_name
+from usd2kg.grounding.lexical.alignment.english_labels import foreign_names_only, has_foreign_name
 from usd2kg.grounding.lexical.alignment.home_vocabulary import lend_terms
 from usd2kg.grounding.lexical.alignment.label_words import (
     SENSE_KEY,
@@ -20,7 +20,7 @@ from usd2kg.grounding.lexical.alignment.residual_class import (
     find_default_class,
     residue_of,
 )
-from usd2kg.grounding.lexical.alignment.terms import AlignedClass, Term, TermKind, keep_best
+from usd2kg.grounding.lexical.alignment.terms import AlignedClass, Term, TermKind, keep_best, term_key
 from usd2kg.grounding.lexical.concepts.categories import members_of
 from usd2kg.grounding.lexical.concepts.senses import sense_weight, usual_sense
 from usd2kg.grounding.lexical.concepts.taxonomy import Sense, Taxonomy
@@ -171,7 +171,9 @@ def physical_classes(tbox: TBox) -> Sequence[OntologyClass]:
 def _align_terms(tbox: TBox, terms: Mapping[str, Term], taxonomy: Taxonomy) -> dict[int, AlignedClass]:
     """Return synset → class, by the terms and by nouns of the same meaning as labels."""
     sense_classes: dict[int, AlignedClass] = {}
-    common = {key: term for key, term in terms.items() if _is_common_noun(term, taxonomy)}
+    # “Regal” is a shelf, and no English noun.
+    foreign = {term_key(name, taxonomy) for cls in tbox.classes for name in foreign_names_only(cls)}
+    common = {key: term for key, term in terms.items() if key not in foreign and _is_common_noun(term, taxonomy)}
     for key, term in common.items():
         if key in taxonomy:
             _align_noun(key, term, tbox, terms, taxonomy, sense_classes)
