@@ -36,7 +36,7 @@ _Roots = Annotated[
     list[str] | None,
     Option(
         "--root",
-        help="IRI, CURIE, local name or label of a class; the scope is it with its subclasses. Repeatable; default: all.",
+        help="Class (IRI, CURIE, name or label); the scope is it with its subclasses. Repeatable; default: all.",
     ),
 ]
 _Registry = Annotated[
