@@ -5,8 +5,10 @@ import pytest
 from tests.conftest import shared_file
 from tests.labels.conftest import ENCODINGS, SOMA
 from tests.scene.usda import METRES, component, cube, prim, xform
+from usd2kg.grounding import view_objects
 from usd2kg.labels import LabelOptions, label_stage, lint_stage, read_prim_classes
 from usd2kg.ontology import load_tbox
+from usd2kg.scene import read_scene
 
 
 @pytest.fixture
@@ -148,6 +150,33 @@ def test_reports_labels_that_differ_from_the_grounded_class(lint, tmp_path, home
     found = lint(*prims, labelled("E", iri=f"{SOMA}Cup"), grounded=grounded)
     assert found[0] == ("warning", "label-stale", "/A", "labelled 'Bottle'", "the class of the run, soma:Cup (0.90)")
     assert [entry[1] for entry in found] == ["label-stale", "spelling-varies"]
+
+
+@pytest.mark.parametrize("encodings", [("UsdSemantics",), ("Isaac",)])
+def test_a_doubtful_prediction_is_no_evidence_when_it_is_read_again(write_stage, tmp_path, home_tbox, encodings):
+    tree = "".join(component(name, cube("g")) for name in ("x_1", "x_2", "x_3", "x_4"))
+    path, target = tmp_path / "run.csv", tmp_path / "labels.usda"
+    rows = "/x_1,soma:Cup,0.3,grounded\n/x_2,soma:Cup,0.9,grounded\n/x_3,soma:Cup,,grounded\n/x_4,soma:Cup,1,reviewed\n"
+    path.write_text(f"path,class,confidence,status\n{rows}")
+    classes = read_prim_classes(path, home_tbox)
+    label_stage(write_stage(METRES + tree), classes, home_tbox, target, options=LabelOptions(encodings))
+    scene = read_scene(target)
+    stated = [next(label.confidence for label in obj.labels.own) for obj in scene.objects]
+    assert stated == [0.3, 0.9, None, None]
+    views = [view.labels for _, view in view_objects(scene)]
+    assert [bool(labels) for labels in views] == [False, True, True, True]
+
+
+def test_a_person_who_changes_a_predicted_label_decides(write_stage, tmp_path, home_tbox):
+    path, target = tmp_path / "run.csv", tmp_path / "labels.usda"
+    path.write_text("path,class,confidence\n/x_1,soma:Cup,0.3\n")
+    source = write_stage(METRES + component("x_1", cube("g")))
+    label_stage(source, read_prim_classes(path, home_tbox), home_tbox, target)
+    text = target.read_text("utf-8")
+    assert 'semantics:labels:class = ["Cup"]' in text
+    target.write_text(text.replace('semantics:labels:class = ["Cup"]', 'semantics:labels:class = ["Bottle"]'), "utf-8")
+    (obj,) = read_scene(target).objects
+    assert {label.confidence for label in obj.labels.own} == {None}
 
 
 def test_finds_nothing_in_labels_written_by_label_stage(write_stage, tmp_path, home_tbox):

@@ -10,7 +10,7 @@ from usd2kg.labels.model import ClassLabel, LabelOptions, LabelOutcome, LabelRep
 from usd2kg.labels.opinions import LabelOpinions, plan_opinions
 from usd2kg.labels.targets import LabelTarget, find_target
 from usd2kg.ontology import ClassIRI
-from usd2kg.scene.label_encodings import TAG_LABELS, semantic_names
+from usd2kg.scene.label_encodings import PREDICTION_KEY, TAG_LABELS, semantic_names
 
 __all__ = ["author_labels"]
 
@@ -40,6 +40,7 @@ def author_labels(
             outcomes.append(LabelOutcome(path, opinions.outcome, opinions.reason))
             if opinions.outcome != "kept":
                 de_instanced.update(target.instances)
+                author.state_confidence(path, labels[path])
         author.class_prims.author()
     return LabelReport(tuple(outcomes), tuple(sorted(de_instanced)))
 
@@ -67,6 +68,13 @@ class _LabelAuthor:
             self._make_uninstanceable(target)
             self._author(Sdf.CreatePrimInLayer(self._layer, path), opinions, label)
         return opinions
+
+    def state_confidence(self, path: str, label: ClassLabel) -> None:
+        """State how certain a prediction is, so that reading it again makes it no more certain."""
+        if label.confidence is not None:
+            stated = {"confidence": label.confidence, "label": label.token}
+            spec = self._layer.GetPrimAtPath(path)
+            spec.customData = {**spec.customData, PREDICTION_KEY: stated}
 
     def _copy_template(self, target: LabelTarget, path: str, label: ClassLabel) -> LabelOpinions:
         key = label.iri, label.concept

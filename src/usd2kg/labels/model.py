@@ -48,6 +48,8 @@ class ClassLabel:
     """Labels and synonyms of the class, to recognise existing labels."""
     concept: str = ""
     """Noun for the concept of the object, independent of its class; empty if it has none."""
+    confidence: float | None = None
+    """Confidence of the prediction; None if it is unknown, or a person decided."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -101,7 +101,8 @@ def _make_labels(
         if reason := _reason_to_leave_out(entry, min_confidence):
             left_out.append(LabelOutcome(entry.prim_path, "left out", reason))
         elif entry.class_iri is not None:
-            labels[entry.prim_path] = replace(make(entry.class_iri), concept=entry.concept)
+            confidence = None if entry.is_reviewed else entry.confidence
+            labels[entry.prim_path] = replace(make(entry.class_iri), concept=entry.concept, confidence=confidence)
     return labels, left_out
 
 

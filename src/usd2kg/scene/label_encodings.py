@@ -6,6 +6,7 @@
 """
 
 import re
+from collections.abc import Iterable, Mapping
 from typing import Any, NamedTuple
 
 from usd2kg.scene.metadata import authored_texts, clean_text
@@ -16,6 +17,7 @@ from usd2kg.words import words_of
 __all__ = [
     "CLASS_TAXONOMIES",
     "CONCEPT_TAXONOMY",
+    "PREDICTION_KEY",
     "QCODE",
     "TAGS",
     "TAG_LABELS",
@@ -30,6 +32,7 @@ __all__ = [
     "isaac_instance",
     "isaac_property",
     "isaac_schema",
+    "predicted_confidence",
     "property_type",
     "schema_of",
     "semantic_names",
@@ -51,6 +54,10 @@ CONCEPT_TAXONOMY = "concept"
 """Taxonomy whose labels are nouns for the concept of an object, whatever its class."""
 _ISAAC = re.compile(r"semantic:(.+):params:semantic(?:Type|Data)")
 _SCHEMAS = ("SemanticsLabelsAPI:", "SemanticsAPI:", TAG_SCHEMA)
+
+
+PREDICTION_KEY = "usd2kg"
+"""Key in a prim's `customData` of a dictionary with the `confidence` of a predicted `label`."""
 
 
 class LabelProperty(NamedTuple):
@@ -141,6 +148,15 @@ def find_labels(prim: Any, names: list[str], time: Any) -> list[LabelProperty]:
     return found + [
         _read_tag(prim, name, target) for name in TAGS if name in names for target in tag_targets(prim, name)
     ]
+
+
+def predicted_confidence(prim: Any, found: Iterable[LabelProperty]) -> float | None:
+    """Return the confidence that `usd2kg label` stated for the labels of a prim; None if a person has changed them."""
+    stated = prim.GetCustomDataByKey(PREDICTION_KEY)
+    if not isinstance(stated, Mapping) or not isinstance(stated.get("confidence"), float):
+        return None
+    values = {value for label in found if label.states_class for value in label.values}
+    return float(stated["confidence"]) if stated.get("label") in values else None
 
 
 def clean_values(prim: Any, name: str, time: Any) -> tuple[str, ...]:

@@ -6,7 +6,7 @@ from typing import Any
 
 from pxr import UsdGeom
 
-from usd2kg.scene.label_encodings import find_labels, semantic_names
+from usd2kg.scene.label_encodings import find_labels, predicted_confidence, semantic_names
 from usd2kg.scene.model import NO_LABELS, Label, ObjectLabels
 from usd2kg.scene.outline import PrimRecord
 from usd2kg.scene.settings import LIMITS
@@ -73,10 +73,11 @@ def read_labels(prim: Any, time: Any) -> tuple[Label, ...]:
     names = semantic_names(prim)
     if not names:
         return ()
-    path = str(prim.GetPath())
+    path, found = str(prim.GetPath()), find_labels(prim, names, time)
+    confidence = predicted_confidence(prim, found)
     return _distinct(
-        Label(path, entry.encoding, entry.taxonomy, value, strength=entry.strength)
-        for entry in find_labels(prim, names, time)
+        Label(path, entry.encoding, entry.taxonomy, value, strength=entry.strength, confidence=confidence)
+        for entry in found
         for value in entry.values
         if value and len(value) <= LIMITS.max_text_length and (entry.taxonomy or entry.encoding != "Isaac")
     )

@@ -116,6 +116,8 @@ class Label:
     """Whether it is authored on an ancestor; UsdSemantics inherits labels down the namespace."""
     strength: Strength = "label"
     """`report` for Multiverse's semanticReports: candidates proposed by a tool, weaker than labels."""
+    confidence: float | None = None
+    """Confidence of the prediction that `usd2kg label` wrote; None for a label of a person or another program."""
 
     @property
     def iri(self) -> str | None:

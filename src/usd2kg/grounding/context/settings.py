@@ -8,11 +8,19 @@ from typing import NamedTuple
 from usd2kg.knowledge import read_settings
 
 __all__ = [
+    "LABELS",
     "NEIGHBOURS",
     "PLACEMENT",
+    "LabelSettings",
     "NeighbourSettings",
     "PlacementSettings",
 ]
+
+
+class LabelSettings(NamedTuple):
+    """Semantic labels on the stage."""
+
+    min_confidence: float
 
 
 class NeighbourSettings(NamedTuple):
@@ -39,5 +47,6 @@ class PlacementSettings(NamedTuple):
     layout_neighbours: int
 
 
+LABELS = read_settings("context", "labels", LabelSettings)
 NEIGHBOURS = read_settings("context", "neighbours", NeighbourSettings)
 PLACEMENT = read_settings("context", "placement", PlacementSettings)

@@ -13,6 +13,7 @@ from typing import overload
 
 from usd2kg.grounding.context.neighbours import Neighbourhood, neighbourhoods
 from usd2kg.grounding.context.placement import Appearance, BoxGrid, Placement
+from usd2kg.grounding.context.settings import LABELS
 from usd2kg.scene.model import Scene, SceneObject, Vector
 from usd2kg.words import split_identifier
 
@@ -211,11 +212,16 @@ def _with_evidence(
 
 
 def _label_words(obj: SceneObject) -> tuple[str, ...]:
-    """Return the class labels on the object's own prim as names: `drawer` for WordNet's `drawer.n.wn.artifact`."""
+    """Return the class labels on the object's own prim as names: `drawer` for WordNet's `drawer.n.wn.artifact`.
+
+    A prediction that was written as a label is evidence only if it was as certain as labels are.
+    """
     values = [
         label.iri or label.value
         for label in obj.labels.own
-        if label.strength == "label" and (label.encoding == "Multiverse" or label.taxonomy in _CLASS_TAXONOMIES)
+        if label.strength == "label"
+        and (label.confidence is None or label.confidence >= LABELS.min_confidence)
+        and (label.encoding == "Multiverse" or label.taxonomy in _CLASS_TAXONOMIES)
     ]
     local = (re.split(r"[#/]", value.rstrip("#/"))[-1] for value in values)
     return tuple(dict.fromkeys(re.split(r"\.[nvasr]\.", name)[0] for name in local))
