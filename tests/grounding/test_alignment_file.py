@@ -328,6 +328,13 @@ class TestErrors:
         assert "was written for another version of the ontology" in caplog.text
         assert "write it again with usd2kg ontology align, and copy the rows of people into it" in caplog.text
 
+    def test_a_label_that_is_no_noun_for_its_concept_is_a_warning(self, caplog: pytest.LogCaptureFixture):
+        assert classes_of("guitar_red", SHOP, write_edits(edit(GUITAR, "chair", "Media"))) == ["Media"]
+        assert "edits.sssom.tsv: line 2: “chair” is no noun for http://wordnet-rdf" in caplog.text
+        caplog.clear()
+        assert classes_of("guitar_red", SHOP, write_edits(edit(GUITAR, "guitar", "Media"))) == ["Media"]
+        assert not caplog.text
+
     def test_a_complete_file_with_edits_alone_is_a_warning(self, caplog: pytest.LogCaptureFixture):
         header = "".join(line for line in TestText.TEXT.splitlines(keepends=True) if line.startswith("#"))
         edits = AlignmentFile(Path("x.tsv"), header + write_edits(edit(GUITAR, "guitar", "Media")).text)

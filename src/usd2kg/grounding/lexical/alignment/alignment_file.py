@@ -18,7 +18,7 @@ from usd2kg.grounding.lexical.alignment.artificial_root import root_synonyms, wi
 from usd2kg.grounding.lexical.alignment.built_alignment import build_alignment
 from usd2kg.grounding.lexical.alignment.lexicon import Lexicon, home_classes_of, make_lexicon
 from usd2kg.grounding.lexical.alignment.lexicon_editor import LexiconEditor
-from usd2kg.grounding.lexical.alignment.terms import Term, TermKind
+from usd2kg.grounding.lexical.alignment.terms import Term, TermKind, term_key
 from usd2kg.grounding.lexical.concepts.taxonomy import Taxonomy
 from usd2kg.ontology import ClassIRI, TBox
 
@@ -140,6 +140,7 @@ class AlignmentFile:
             GroundingError: the file is malformed, or names a class or concept that does not exist.
         """
         default, content_hash, rows = parse_rows(self.path, self.text, tbox)
+        self._warn_of_other_nouns(rows, taxonomy)
         if default is None:
             built = build_alignment(tbox, taxonomy, synonyms, use_lists=use_lists)
             return built.tbox, built.edited(taxonomy, rows, str(self.path))
@@ -157,6 +158,15 @@ class AlignmentFile:
         editor.add_all(row for row in rows if not _is_decided(row))
         editor.edit_all(row for row in rows if _is_decided(row))
         return rooted, editor.lexicon()
+
+    def _warn_of_other_nouns(self, rows: Iterable[AlignmentRow], taxonomy: Taxonomy) -> None:
+        """Warn of a person's rows whose label is no noun for their concept: the concept decides."""
+        for row in rows:
+            if row.kind is RowKind.CONCEPT and row.is_curated and row.label:
+                nouns = {taxonomy.concept_iri(sense.synset) for sense in taxonomy.senses(term_key(row.label, taxonomy))}
+                if nouns and row.subject not in nouns:
+                    problem = f"line {row.line}: “{row.label}” is no noun for {row.subject}, which the row is about"
+                    logger.warning("%s: %s; correct one of them", self.path, problem)
 
 
 def read_alignment_file(path: Path) -> AlignmentFile:
