@@ -207,10 +207,9 @@ class Nouns(PlaceNouns):
             return found
         self.guesses.append(f"“{text}” was read as {len(exact)} of {len(found.iris)} things that may be meant")
         others = list(dict.fromkeys(self._facts.label(iri) for iri in found.iris if iri not in exact))
-        left = len(others) - LOOKUP.max_suggestions
-        *first, last = [*others[: LOOKUP.max_suggestions], *([f"{left} more"] if left > 0 else [])]
-        listed = f"{', '.join(first)} and {last}" if first else last
-        note = f"there {'is' if len(others) == 1 else 'are'} also {listed}"
+        more = [f"{len(others) - LOOKUP.max_suggestions} more"] if len(others) > LOOKUP.max_suggestions else []
+        *first, last = [*others[: LOOKUP.max_suggestions], *more]
+        note = f"there {'is' if len(others) == 1 else 'are'} also {', '.join(first)}{' and ' if first else ''}{last}"
         return replace(found, iris=exact, note="; ".join(filter(None, (found.note, note))))
 
     def for_purpose(self, verb: str) -> Things:
