@@ -71,7 +71,8 @@ def test_a_missing_class_is_proposed(browser: Browser, stage: Path, tmp_path: Pa
         assert page.locator("img[src=x]").count() == 0
         close_page(page)
     (proposed,) = [cls for cls in load_tbox(folder / "proposals.ttl").classes if cls.label == HOSTILE]
-    assert proposed.comment == "2 objects, such as /Kitchen/Cup_1"
+    assert proposed.comment == ""
+    assert 'skos:example "/Kitchen/Cup_1"' in (folder / "proposals.ttl").read_text("utf-8")
 
 
 def test_the_queue_begins_where_the_grounders_disagree(browser: Browser, stage: Path, tmp_path: Path):
