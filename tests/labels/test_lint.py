@@ -179,6 +179,18 @@ def test_a_person_who_changes_a_predicted_label_decides(write_stage, tmp_path, h
     assert {label.confidence for label in obj.labels.own} == {None}
 
 
+def test_a_person_who_confirms_a_predicted_label_makes_it_evidence(write_stage, tmp_path, home_tbox):
+    run, predicted, confirmed = tmp_path / "run.csv", tmp_path / "predicted.usda", tmp_path / "confirmed.usda"
+    run.write_text("path,class,confidence\n/x_1,soma:Cup,0.3\n")
+    source = write_stage(METRES + component("x_1", cube("g")))
+    label_stage(source, read_prim_classes(run, home_tbox), home_tbox, predicted)
+    run.write_text("path,decision\n/x_1,soma:Cup\n")
+    options = LabelOptions(mode="overwrite")
+    label_stage(predicted, read_prim_classes(run, home_tbox), home_tbox, confirmed, options=options)
+    (obj,) = read_scene(confirmed).objects
+    assert [(label.value, label.confidence) for label in obj.labels.own if label.taxonomy == "class"] == [("Cup", None)]
+
+
 def test_finds_nothing_in_labels_written_by_label_stage(write_stage, tmp_path, home_tbox):
     source = write_stage(METRES + component("A", cube("g")) + component("B", cube("g")))
     path, target = tmp_path / "run.csv", tmp_path / "labels.usda"

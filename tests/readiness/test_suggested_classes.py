@@ -9,7 +9,7 @@ from tests.conftest import shared_file
 from tests.grounding.records import LAB, make_class, make_object, make_scene, make_tbox
 from usd2kg.grounding import Status, ground
 from usd2kg.ontology import TBox, load_tbox
-from usd2kg.readiness import SuggestedClass, format_suggestions, suggest_classes
+from usd2kg.readiness import Proposal, SuggestedClass, format_suggestions, suggest_classes
 from usd2kg.scene import read_scene
 
 SHOP = make_tbox(make_class("Item", label="item"), make_class("OfficeChair", "Item", label="office chair"))
@@ -68,6 +68,14 @@ def test_classes_with_foreign_labels_are_not_suggested():
         make_class("Item"), replace(make_class("C1", "Item", label="Stuhl"), foreign_names=(("de", "Stuhl"),))
     )
     assert summary(suggest("chair_1 guitar", tbox)) == [("guitar", "Item", 1)]
+
+
+@pytest.mark.parametrize("reviewer", ["0000-0002-1825-0097", "orcid:0000-0002-1825-0097"])
+def test_an_orcid_id_of_a_proposer_is_an_iri(reviewer: str):
+    (one,) = suggest("guitar")
+    proposal = Proposal(reviewer, "2026-11-01T10:00:00Z", "")
+    text = format_suggestions([replace(one, proposals=(proposal,))], SHOP)
+    assert "dcterms:creator <https://orcid.org/0000-0002-1825-0097>" in text
 
 
 def test_what_the_ontology_names_is_not_suggested():

@@ -40,7 +40,7 @@ def author_labels(
             outcomes.append(LabelOutcome(path, opinions.outcome, opinions.reason))
             if opinions.outcome != "kept":
                 de_instanced.update(target.instances)
-                author.state_confidence(path, labels[path])
+                author.state_confidence(target, path, labels[path])
         author.class_prims.author()
     return LabelReport(tuple(outcomes), tuple(sorted(de_instanced)))
 
@@ -69,12 +69,17 @@ class _LabelAuthor:
             self._author(Sdf.CreatePrimInLayer(self._layer, path), opinions, label)
         return opinions
 
-    def state_confidence(self, path: str, label: ClassLabel) -> None:
+    def state_confidence(self, target: LabelTarget, path: str, label: ClassLabel) -> None:
         """State how certain a prediction is, so that reading it again makes it no more certain."""
         if label.confidence is not None:
             stated = {"confidence": label.confidence, "label": label.token}
-            spec = self._layer.GetPrimAtPath(path)
-            spec.customData = {**spec.customData, PREDICTION_KEY: stated}
+        elif target.prim.GetCustomDataByKey(PREDICTION_KEY) is not None:
+            # An earlier layer states the confidence of a label that may be this one; OpenUSD merges dictionaries.
+            stated = {"label": ""}
+        else:
+            return
+        spec = self._layer.GetPrimAtPath(path)
+        spec.customData = {**spec.customData, PREDICTION_KEY: stated}
 
     def _copy_template(self, target: LabelTarget, path: str, label: ClassLabel) -> LabelOpinions:
         key = label.iri, label.concept

@@ -11,6 +11,7 @@ import pyoxigraph as ox
 from usd2kg.graph.vocabulary import DCTERMS, OWL, PREFIXES, RDF, RDFS, SKOS, XSD, Triple, named_node, text
 from usd2kg.grounding import Concept, Grounding, Prediction, Status, concepts_named
 from usd2kg.grounding.lexical.alignment.english_labels import in_english
+from usd2kg.grounding.model import reviewer_iri
 from usd2kg.ontology import ClassIRI, OntologyClass, TBox
 from usd2kg.readiness.settings import SUGGESTION
 from usd2kg.words import words_of
@@ -148,7 +149,7 @@ def _triples_of_proposals(one: SuggestedClass, node: ox.NamedNode) -> Iterator[T
     for path in one.objects:
         yield node, SKOS.example, text(path)
     for proposal in one.proposals:
-        yield node, DCTERMS.creator, named_node(proposal.reviewer) or text(proposal.reviewer)
+        yield node, DCTERMS.creator, named_node(reviewer_iri(proposal.reviewer)) or text(proposal.reviewer)
         yield node, DCTERMS.created, ox.Literal(proposal.time, datatype=XSD.dateTime)
         if proposal.comment:
             yield node, SKOS.editorialNote, text(proposal.comment)
