@@ -3,7 +3,7 @@
 from collections import Counter
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from itertools import chain, starmap
+from itertools import chain
 from pathlib import Path
 
 import pyoxigraph as ox
@@ -197,15 +197,15 @@ class _GraphBuilder:
         used = {p.class_iri for p in self.grounding.predictions if p.class_iri} | set(self.room_classes.values())
         declarations = declare_terms(self.properties, self.classes)
         head = dict.fromkeys((*self._header(), *declarations, *declare_classes(used, self.tbox)))
-        return PackedTriples(starmap(ox.Triple, head), prefixes) + statements
+        return PackedTriples(head, prefixes) + statements
 
-    def _record(self, block: Iterable[Triple]) -> Iterable[ox.Triple]:
+    def _record(self, block: Iterable[Triple]) -> Iterable[Triple]:
         """Return the triples of one block without duplicates, and record the terms they use."""
-        stated = list(block)
-        self.properties.update(predicate for _, predicate, _ in stated)
+        stated = dict.fromkeys(block)
+        self.properties |= {predicate for _, predicate, _ in stated}
         kind = RDF.type
-        self.classes.update(v for _, p, v in stated if p == kind and isinstance(v, ox.NamedNode))
-        return dict.fromkeys(starmap(ox.Triple, stated))
+        self.classes |= {v for _, p, v in stated if p == kind and isinstance(v, ox.NamedNode)}
+        return stated
 
     def _blocks_of_scene(self) -> Iterator[Iterable[Triple]]:
         """Yield the blocks that are not about one object; no two blocks of a graph have a triple in common."""

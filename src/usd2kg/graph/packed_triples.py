@@ -2,14 +2,19 @@
 
 import zlib
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from typing import overload
+from itertools import islice
+from typing import TypeVar, overload
 
 import pyoxigraph as ox
 
-__all__ = ["PackedTriples", "subject_chunks", "turtle_statements"]
+from usd2kg.graph.turtle_text import TurtleText
+from usd2kg.graph.vocabulary import Triple
+
+__all__ = ["PackedTriples", "subject_chunks"]
 
 _CHUNK = 20_000
 """Triples that are serialised and compressed together (6 MB as objects); affects only speed and memory."""
+_T = TypeVar("_T", bound=ox.Triple | Triple)
 
 
 class PackedTriples(Sequence[ox.Triple]):
@@ -18,14 +23,15 @@ class PackedTriples(Sequence[ox.Triple]):
     They are packed as Turtle, the usual output format, so that writing a graph does not recreate the objects.
     """
 
-    def __init__(self, triples: Iterable[ox.Triple], prefixes: Mapping[str, str]) -> None:
+    def __init__(self, triples: Iterable[Triple], prefixes: Mapping[str, str]) -> None:
         """Pack triples, with prefixes for the text."""
         self.prefixes = dict(prefixes)
         self._count = 0
         self._packed: list[bytes] = []
+        text = TurtleText(self.prefixes)
         for chunk in subject_chunks(triples, _CHUNK):
             self._count += len(chunk)
-            self._packed.append(zlib.compress(turtle_statements(chunk, self.prefixes), level=1))
+            self._packed.append(zlib.compress(text.statements(chunk).encode(), level=1))
 
     def __add__(self, other: "PackedTriples") -> "PackedTriples":
         """Return the concatenation; the prefixes must be equal, and `other` must start with a new subject."""
@@ -63,23 +69,15 @@ class PackedTriples(Sequence[ox.Triple]):
     __hash__ = None  # type: ignore[assignment]
 
 
-def subject_chunks(triples: Iterable[ox.Triple], size: int) -> Iterator[list[ox.Triple]]:
+def subject_chunks(triples: Iterable[_T], size: int) -> Iterator[list[_T]]:
     """Yield chunks of at least `size` triples that end where the subject changes."""
-    chunk: list[ox.Triple] = []
-    for triple in triples:
-        if len(chunk) >= size and triple.subject != chunk[-1].subject:
-            yield chunk
-            chunk = []
-        chunk.append(triple)
-    if chunk:
+    left = iter(triples)
+    following: list[_T] = []
+    while chunk := [*following, *islice(left, size - len(following))]:
+        following.clear()
+        for triple in left:
+            if triple[0] != chunk[-1][0]:
+                following.append(triple)
+                break
+            chunk.append(triple)
         yield chunk
-
-
-def turtle_statements(triples: Sequence[ox.Triple], prefixes: Mapping[str, str]) -> memoryview:
-    """Return triples as Turtle without prefix declarations, whose order varies between runs."""
-    data = ox.serialize(triples, format=ox.RdfFormat.TURTLE, prefixes=dict(prefixes))
-    assert data is not None, "without an output file, serialize returns the bytes"
-    end = 0
-    for _ in prefixes:
-        end = data.index(b"\n", end) + 1
-    return memoryview(data)[end:]

@@ -10,8 +10,9 @@ import pyoxigraph as ox
 from usd2kg.errors import GraphError
 from usd2kg.files import write_whole
 from usd2kg.graph.abox import KnowledgeGraph
-from usd2kg.graph.packed_triples import PackedTriples, subject_chunks, turtle_statements
+from usd2kg.graph.packed_triples import PackedTriples, subject_chunks
 from usd2kg.graph.rdf_document import RDF_FORMATS, GraphDocument, document_of, refuse_rdf12
+from usd2kg.graph.turtle_text import TurtleText
 from usd2kg.graph.vocabulary import PREFIXES
 from usd2kg.ontology import write_functional_syntax
 from usd2kg.tracing import traced
@@ -110,7 +111,8 @@ def _statements(triples: Sequence[ox.Triple], prefixes: Mapping[str, str]) -> Ch
     if isinstance(triples, PackedTriples) and triples.prefixes == prefixes:
         yield from triples.turtle()
     else:
-        yield from (turtle_statements(chunk, prefixes) for chunk in subject_chunks(triples, _CHUNK))
+        text = TurtleText(prefixes)
+        yield from (text.statements(chunk).encode() for chunk in subject_chunks(triples, _CHUNK))
 
 
 def _n_triples(document: GraphDocument) -> Chunks:
