@@ -323,6 +323,15 @@ class TestCopies:
         scored = [grounder.predict(view) for _, view in view_objects(scene)]
         assert len({id(one) for one in scored}) == 1
 
+    def test_copies_in_equal_surroundings_share_one_result(self, home_tbox: TBox):
+        # Neither words nor neighbours say what they are. Two stand alone, and two beside each other.
+        corners = {"/World/xq_1": (0, 0), "/World/xq_2": (90, 0), "/World/xq_3": (0, 90), "/World/xq_4": (0, 91)}
+        boxes = {path: Box((x, y, 0), (x + 0.5, y + 0.5, 1)) for path, (x, y) in corners.items()}
+        scene = make_scene(*(make_object(path, box=box) for path, box in boxes.items()))
+        grounder = LexicalGrounder().object_grounder(home_tbox)
+        one, two, three, four = (id(grounder.predict(view)) for _, view in view_objects(scene))
+        assert one == two != three == four
+
     def test_copies_get_the_prediction_that_each_gets_alone(self, home_tbox: TBox):
         paths = [f"/World/Flat_{flat}/Kitchen/{name}_{flat + 7}" for flat in range(3) for name in self.NAMES]
         scene = make_scene(*(sized(path, (0.5, 0.5, 1.0)) for path in paths))

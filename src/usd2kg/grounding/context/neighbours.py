@@ -80,7 +80,7 @@ class _StageIndex:
         self.places: list[int] = []
         """Object → its index among its siblings."""
         self.log_extents = [None if size is None else _log_extents(size) for size in map(_size_of, scene.objects)]
-        self._votes: dict[AskVote[Any], dict[int, Any]] = {}
+        self._votes: dict[AskVote[Any], _Votes[Any]] = {}
         self._of_names: dict[Callable[[Sequence[str]], Any], Any] = {}
         for index, obj in enumerate(scene.objects):
             siblings = self.siblings.setdefault(_parent_path(obj), [])
@@ -111,9 +111,24 @@ class _StageIndex:
         found: G = self._of_names[find]
         return found
 
-    def votes(self, vote: AskVote[V]) -> dict[int, V | None]:
-        """Return object → its vote, for those asked so far."""
-        return self._votes.setdefault(vote, {})
+    def votes(self, vote: AskVote[V]) -> "_Votes[V]":
+        """Return object → its vote."""
+        if vote not in self._votes:
+            self._votes[vote] = _Votes(vote, self.objects)
+        return self._votes[vote]
+
+
+class _Votes(dict[int, V | None]):
+    """Object → its vote, asked on first use."""
+
+    def __init__(self, vote: AskVote[V], objects: Sequence[SceneObject]) -> None:
+        super().__init__()
+        self._vote, self._objects = vote, objects
+
+    def __missing__(self, index: int) -> V | None:
+        obj = self._objects[index]
+        own = self[index] = self._vote(obj.name, _parents(obj), _size_of(obj))
+        return own
 
 
 class Neighbourhood:
@@ -156,27 +171,19 @@ class Neighbourhood:
 
         `vote` is called once for each object of the stage.
         """
-        known = self._stage.votes(vote)
-        found = []
-        for other, (nearness, distance) in self._find().items():
-            if other not in known:
-                neighbour = self.neighbour(other, nearness, distance)
-                known[other] = vote(neighbour.name, neighbour.parents, neighbour.size)
-            own = known[other]
-            if own is not None:
-                found.append((own, nearness, distance, other))
-        return found
+        votes = self._stage.votes(vote)
+        found = self._find_voters(votes).items()
+        return [(own, *near, other) for other, near in found if (own := votes[other]) is not None]
 
     def neighbour(self, other: int, nearness: Nearness, distance: float | None) -> Neighbour:
         """Return an object of the scene as a neighbour."""
         obj = self._stage.objects[other]
-        parents = tuple(name for name in _parent_path(obj).split("/") if name)
-        return Neighbour(obj.name, parents, nearness, distance, _size_of(obj))
+        return Neighbour(obj.name, _parents(obj), nearness, distance, _size_of(obj))
 
-    def _find(self) -> dict[int, tuple[Nearness, float | None]]:
-        """Return neighbour → nearness and size distance, siblings first."""
-        found = self._find_siblings()
-        for other, near in self._find_similar():
+    def _find_voters(self, votes: "_Votes[V]") -> dict[int, tuple[Nearness, float | None]]:
+        """Return neighbour that votes → nearness and size distance, siblings first."""
+        found = self._find_siblings(votes)
+        for other, near in self._find_similar(votes):
             found.setdefault(other, near)
         path = self._stage.objects[self._index].prim_path
         if path not in self._stage.ancestors:
@@ -185,7 +192,7 @@ class Neighbourhood:
         objects, below = self._stage.objects, path + "/"
         return {other: near for other, near in found.items() if not objects[other].prim_path.startswith(below)}
 
-    def _find_siblings(self) -> dict[int, tuple[Nearness, float | None]]:
+    def _find_siblings(self, votes: "_Votes[V]") -> dict[int, tuple[Nearness, float | None]]:
         stage, own = self._stage, self._index
         size = stage.log_extents[own]
         siblings, place = stage.siblings[_parent_path(stage.objects[own])], stage.places[own]
@@ -193,26 +200,31 @@ class Neighbourhood:
         start = max(0, place - reach)
         found: dict[int, tuple[Nearness, float | None]] = {}
         for at, other in enumerate(siblings[start : place + reach], start):
+            if other == own or votes[other] is None:
+                continue
             other_size = stage.log_extents[other]
             distance = None if size is None or other_size is None else _distance(size, other_size)
             is_next = abs(at - place) <= NEIGHBOURS.next_places
             found[other] = Nearness.NEXT if is_next else Nearness.SIBLING, distance
-        del found[own]
         return found
 
-    def _find_similar(self) -> list[tuple[int, tuple[Nearness, float | None]]]:
-        size = self._stage.log_extents[self._index]
+    def _find_similar(self, votes: "_Votes[V]") -> list[tuple[int, tuple[Nearness, float | None]]]:
+        own = self._index
+        size = self._stage.log_extents[own]
         if size is None:
             return []
         logs, (volumes, order) = self._stage.log_extents, self._stage.by_volume
         at, reach = bisect_left(volumes, sum(size)), NEIGHBOURS.max_similar_size
         near = order[max(0, at - reach) : at + reach]
-        nearest = [(_distance(size, other), index) for index in near if (other := logs[index]) and index != self._index]
+        if not any(index != own and votes[index] is not None for index in near):
+            return []
+        nearest = [(_distance(size, other), index) for index in near if (other := logs[index]) and index != own]
         nearest.sort()
         equal = sum([distance < SAME_SIZE for distance, _ in nearest[: NEIGHBOURS.max_same_size]])
         return [
             (index, (Nearness.SAME_SIZE if rank < equal else Nearness.SIMILAR_SIZE, distance))
             for rank, (distance, index) in enumerate(nearest[: max(equal, reach)])
+            if votes[index] is not None
         ]
 
 
@@ -224,6 +236,11 @@ def neighbourhoods(scene: Scene) -> list[Neighbourhood]:
 
 def _parent_path(obj: SceneObject) -> str:
     return obj.prim_path.rpartition("/")[0]
+
+
+def _parents(obj: SceneObject) -> tuple[str, ...]:
+    """Return the names of the prims above an object, outermost first."""
+    return tuple(filter(None, _parent_path(obj).split("/")))
 
 
 def _size_of(obj: SceneObject) -> Vector | None:

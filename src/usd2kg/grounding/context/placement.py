@@ -94,7 +94,10 @@ class BoxGrid:
         if self._objects[index].box is None or not self.is_laid_out:
             return np.empty(0, int), np.empty(0)
         others, metres = self._find_nearest(index, most)
-        below = self._objects[index].prim_path + "/"
+        path = self._objects[index].prim_path
+        if path not in self._wholes:
+            return others, metres
+        below = path + "/"
         kept = [not self._objects[other].prim_path.startswith(below) for other in others.tolist()]
         return others[kept], metres[kept]
 
@@ -118,6 +121,11 @@ class BoxGrid:
         if is_anonymous:
             return PlacedObject("", (), seen)
         return PlacedObject(obj.name, tuple(filter(None, obj.prim_path.split("/")[:-1])), seen)
+
+    @cached_property
+    def _wholes(self) -> frozenset[str]:
+        """Paths of objects with objects below them."""
+        return frozenset(obj.parent_path for obj in self._objects if obj.parent_path is not None)
 
     @cached_property
     def _centres(self) -> _Floats:

@@ -6,7 +6,7 @@ from typing import NamedTuple
 import numpy as np
 
 from usd2kg.grounding.context.neighbours import SAME_SIZE, AskVote, Nearness, Neighbour, Neighbourhood
-from usd2kg.grounding.context.placement import PlacedObject, ScoreObject
+from usd2kg.grounding.context.placement import Appearance, PlacedObject, ScoreObject
 from usd2kg.grounding.context.views import ObjectView
 from usd2kg.grounding.lexical.class_posterior import (
     NO_POSTERIOR,
@@ -41,7 +41,10 @@ from usd2kg.grounding.lexical.settings import VOTE
 from usd2kg.ontology import ClassIRI, TBox
 from usd2kg.table_cache import TableCache
 
-__all__ = ["AppearanceKey", "ContextEvidence"]
+__all__ = ["AppearanceKey", "ContextEvidence", "Surroundings"]
+
+_PLACE_DIGITS = 6
+"""Decimals of the probabilities of places: two more than those of a confidence."""
 
 _NEARNESS_TEXTS = {
     Nearness.NEXT: "right beside it",
@@ -61,6 +64,14 @@ class AppearanceKey(NamedTuple):
     """The kinds of place that names above mention."""
 
 
+class Surroundings(NamedTuple):
+    """What an object looks like and where it is, equal for copies in the same surroundings."""
+
+    appearance: Appearance
+    places: tuple[float, ...]
+    """Probability of each kind of place, rounded."""
+
+
 class ContextEvidence:
     """Scores classes by context, for one TBox."""
 
@@ -74,6 +85,8 @@ class ContextEvidence:
         self._matcher = matcher
         # Copies of one model have the same size and stance.
         self._posterior_by_appearance = lru_cache(maxsize=8192)(self._compute_posterior_by_appearance)
+        self._posterior = lru_cache(maxsize=1024)(self._compute_posterior)
+        self._log_places_of_appearance = lru_cache(maxsize=1024)(_log_places_of_appearance)
         # Scenes cache results by the identity of the function, and each access to a method creates a new object.
         self._find_prefix = partial(shared_prefix, names_object=reader.names_known_noun)
         self._vote = lru_cache(maxsize=64)(self._make_vote)
@@ -106,12 +119,19 @@ class ContextEvidence:
         log_likelihoods = size_log_likelihoods(key.size) + log_stance_likelihoods(key.stance)
         return self._model.posterior(log_likelihoods, place_probabilities(np.zeros(len(PLACES)), key.places))
 
-    def posterior(self, view: ObjectView) -> ClassPosterior:
-        """Return class probabilities given size, stance, surrounding objects and places that names above mention."""
+    def surroundings(self, view: ObjectView) -> Surroundings | None:
+        """Return what `posterior` depends on; None if the size is unknown."""
         if view.appearance is None:
-            return NO_POSTERIOR
+            return None
         places = place_probabilities(self._log_places_around(view), places_named(view.parents))
-        return self._model.posterior(log_likelihoods_of_appearance(view.appearance), places)
+        return Surroundings(view.appearance, tuple(places.round(_PLACE_DIGITS).tolist()))
+
+    def posterior(self, seen: Surroundings | None) -> ClassPosterior:
+        """Return class probabilities given size, stance, surrounding objects and places that names above mention."""
+        return NO_POSTERIOR if seen is None else self._posterior(seen)
+
+    def _compute_posterior(self, seen: Surroundings) -> ClassPosterior:
+        return self._model.posterior(log_likelihoods_of_appearance(seen.appearance), np.array(seen.places))
 
     def score_appearance(self, view: ObjectView) -> list[tuple[str, str, ClassPosterior]]:
         """Return (evidence group, what is seen, class probabilities given that alone): size, stance, and place."""
@@ -140,9 +160,9 @@ class ContextEvidence:
         """Class probabilities of an object of which nothing is known."""
         return self._model.posterior(np.zeros(len(everyday_nouns())), np.full(len(PLACES), 1 / len(PLACES)))
 
-    def explain_posterior(self, view: ObjectView, place: str | None, iri: ClassIRI) -> str:
+    def explain_posterior(self, seen: Surroundings | None, place: str | None, iri: ClassIRI) -> str:
         """Return one sentence for a class that size and place support."""
-        elevation = view.appearance.elevation if view.appearance is not None else None
+        elevation = None if seen is None else seen.appearance.elevation
         where = "" if elevation is None else f", {elevation:.1f} m above the ground"
         among = f", in what seems {PLACE_TEXTS[place]}" if place else ""
         label = self._tbox.by_iri[iri].readable_name
@@ -209,8 +229,12 @@ class ContextEvidence:
         by_name = self._log_places_of_name(other.name, other.parents)
         if by_name.any():
             return by_name
-        return log_place_likelihoods_of_appearance(log_likelihoods_of_appearance(other.appearance))
+        return self._log_places_of_appearance(other.appearance)
 
     def _log_places_of_name(self, name: str, parents: tuple[str, ...]) -> Floats:
         row = None if is_generated_name(name) else self._matcher.find_object_row(self._reader.read(name, parents))
         return np.zeros(len(PLACES)) if row is None else log_place_likelihoods_of_noun(row)
+
+
+def _log_places_of_appearance(seen: Appearance) -> Floats:
+    return log_place_likelihoods_of_appearance(log_likelihoods_of_appearance(seen))

@@ -3,7 +3,7 @@
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import replace
 from functools import lru_cache, partial
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 from usd2kg.grounding.context.views import ObjectView
 from usd2kg.grounding.lexical.alignment.artificial_root import NO_CLASS, NO_CLASS_IRI, with_root
@@ -14,7 +14,7 @@ from usd2kg.grounding.lexical.candidate_evidence import CandidateEvidence, weigh
 from usd2kg.grounding.lexical.class_posterior import NO_POSTERIOR, ClassPosterior
 from usd2kg.grounding.lexical.concepts.categories import invert_categories
 from usd2kg.grounding.lexical.concepts.taxonomy import Taxonomy, load_taxonomy
-from usd2kg.grounding.lexical.context_evidence import AppearanceKey, ContextEvidence
+from usd2kg.grounding.lexical.context_evidence import AppearanceKey, ContextEvidence, Surroundings
 from usd2kg.grounding.lexical.evidence_combination import CONTEXT_GROUPS, ScoredClass, combine_evidence
 from usd2kg.grounding.lexical.matching.head_matching import ClassRanker
 from usd2kg.grounding.lexical.matching.kind_ranking import KindRanker
@@ -40,6 +40,20 @@ if TYPE_CHECKING:
 __all__ = ["ObjectGrounder"]
 
 _GROUNDER = "lexical"
+
+
+class _WordScores(NamedTuple):
+    """The classes of one object by its words."""
+
+    words: tuple[ObjectWords, bool] | None
+    """The words, and whether they are made for the stage; None if the naming regime masks the name."""
+    scored: list[ScoredClass]
+    """Best first, those of abbreviations last."""
+    best_score: float
+    """The best score of spelled-out words."""
+    is_enough: bool = False
+    """Whether no other evidence is needed."""
+    has_abbreviations: bool = False
 
 
 class ObjectGrounder:
@@ -84,6 +98,7 @@ class ObjectGrounder:
         self._context = ContextEvidence(self._tbox, self._words, self.reader, self.matcher, tables)
         # Copies of one model have the same words and size; they differ in their neighbours, which clear words ignore.
         self._predict_by_words = lru_cache(maxsize=1024)(self._predict_clear)
+        self._predict_in_place = lru_cache(maxsize=1024)(self._predict_without_neighbours)
         self._predict_copy = lru_cache(maxsize=1024)(self._predict_looking_alike)
 
     def _class_ranker(self, tables: TableCache) -> ClassRanker | None:
@@ -123,9 +138,17 @@ class ObjectGrounder:
             clear = self._predict_copy(words, is_made_for_it, left_out, appearance)
             if clear is not None:
                 return clear
-        scored = self._predict(shown, self._context.posterior_by_appearance(appearance))
-        unknown_share = self._unknown_share(scored.prediction, shown.name, shown.parents)
-        return _with_note(scored._replace(unknown_share=unknown_share), left_out)
+        by_words = self._score_words(shown)
+        scored = by_words.scored
+        if not by_words.is_enough:
+            neighbours, seen = self._context.score_neighbours(shown), self._context.surroundings(shown)
+            if not neighbours and not by_words.has_abbreviations:
+                unknown_share = self._unknown_share((), shown.name, shown.parents)
+                return self._predict_in_place(by_words.words, seen, unknown_share, left_out, appearance)
+            scored = self._combine(scored, neighbours, seen, is_masked=shown.is_masked)
+        found = self._answer(scored, by_words.best_score, appearance)
+        unknown_share = self._unknown_share(found.prediction.words, shown.name, shown.parents)
+        return _with_note(found._replace(unknown_share=unknown_share), left_out)
 
     def weigh(
         self, view: ObjectView, candidates: Iterable[ClassIRI]
@@ -148,16 +171,31 @@ class ObjectGrounder:
         if scored[0].group == "name" and not self._words.is_complete(words, is_made_for_it=is_made_for_it):
             return None
         found = self._best_of(scored, NO_POSTERIOR)
-        unknown_share = self._unknown_share(found.prediction, words.name, words.parents)
+        unknown_share = self._unknown_share(found.prediction.words, words.name, words.parents)
         return _with_note(found._replace(unknown_share=unknown_share), left_out)
 
-    def _unknown_share(self, prediction: Prediction, name: str, parents: tuple[str, ...]) -> float:
-        words = prediction.words or self.reader.read(name, parents).words
+    def _predict_without_neighbours(
+        self,
+        words: tuple[ObjectWords, bool] | None,
+        seen: Surroundings | None,
+        unknown_share: float,
+        left_out: str,
+        appearance: AppearanceKey | None,
+    ) -> ScoredView:
+        """Return the class of an object by its words and its surroundings, where no neighbour has a class."""
+        scored = self._words.score_words(words[0], is_made_for_it=words[1]) if words is not None else []
+        best_score = scored[0].score if scored else 0.0
+        found = self._answer(self._combine(scored, [], seen, is_masked=words is None), best_score, appearance)
+        return _with_note(found._replace(unknown_share=unknown_share), left_out)
+
+    def _unknown_share(self, expansion: tuple[str, ...], name: str, parents: tuple[str, ...]) -> float:
+        words = expansion or self.reader.read(name, parents).words
         unknown = [word for word in words if not self.reader.kinds.is_known(word)]
         return len(unknown) / len(words) if words else 0.0
 
-    def _predict(self, view: ObjectView, posterior: ClassPosterior) -> ScoredView:
-        scored, word_score = self._score(view)
+    def _answer(self, scored: list[ScoredClass], word_score: float, appearance: AppearanceKey | None) -> ScoredView:
+        """Return the answer by scored classes, best first, and the best score of spelled-out words."""
+        posterior = self._context.posterior_by_appearance(appearance)
         if not scored or max(scored[0].score, word_score) < EVIDENCE.min_score:
             return ScoredView(self._default("the evidence does not determine its class"), posterior)
         return self._best_of(scored, posterior)
@@ -185,34 +223,38 @@ class ObjectGrounder:
         )
         return ScoredView(prediction, posterior, best.is_listed)
 
-    def _score(self, view: ObjectView) -> tuple[list[ScoredClass], float]:
-        """Return the classes by all evidence that is needed, best first, and the best score of spelled-out words."""
+    def _score_words(self, view: ObjectView) -> _WordScores:
+        """Return the classes by words; abbreviations are read only if other evidence is needed."""
         is_generated = is_generated_name(view.name)
         scored: list[ScoredClass] = []
+        words = None
         if not view.is_masked:
-            words = self._words.words_of(replace(view, name="") if is_generated else view)
-            scored = self._words.score_words(words, is_made_for_it=self._words.is_made_for_stage(view))
+            read = self._words.words_of(replace(view, name="") if is_generated else view)
+            words = read, self._words.is_made_for_stage(view)
+            scored = self._words.score_words(read, is_made_for_it=words[1])
         if scored and scored[0].score >= EVIDENCE.clear_score and scored[0].group == "name":
             scored = self._words.complete(view, scored)
-        word_score = scored[0].score if scored else 0.0
-        if word_score >= EVIDENCE.clear_score:
-            return scored, word_score
+        best_score = scored[0].score if scored else 0.0
+        if best_score >= EVIDENCE.clear_score:
+            return _WordScores(words, scored, best_score, is_enough=True)
         if not (scored or view.is_masked or is_generated) and self.reader.names_known_noun(view.name):
             # The name is understood and no class fits, as for a tulip in a TBox of furniture: the classes of neighbours
             # could only be wrong.
-            return [], word_score
+            return _WordScores(words, [], best_score, is_enough=True)
         expanded = [] if is_generated else self._words.score_abbreviation(view)
-        return self._combine(view, [*scored, *expanded]), word_score
+        return _WordScores(words, [*scored, *expanded], best_score, has_abbreviations=bool(expanded))
 
-    def _combine(self, view: ObjectView, by_words: list[ScoredClass]) -> list[ScoredClass]:
-        posterior = self._context.posterior(view)
-        return combine_evidence(
-            by_words,
-            self._context.score_neighbours(view),
-            posterior.ranked(),
-            partial(self._context.explain_posterior, view, posterior.place),
-            is_masked=view.is_masked,
-        )
+    def _combine(
+        self,
+        by_words: list[ScoredClass],
+        by_neighbours: list[ScoredClass],
+        seen: Surroundings | None,
+        *,
+        is_masked: bool = False,
+    ) -> list[ScoredClass]:
+        posterior = self._context.posterior(seen)
+        explain = partial(self._context.explain_posterior, seen, posterior.place)
+        return combine_evidence(by_words, by_neighbours, posterior.ranked(), explain, is_masked=is_masked)
 
     def _default(self, reason: str) -> Prediction:
         iri = self._lexicon.default_class
