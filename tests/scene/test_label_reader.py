@@ -203,6 +203,30 @@ class TestObjectLabels:
         assert (values_of(outer.own), outer.of_parts) == ([("UsdSemantics", "class", "cabinet")], ())
         assert values_of(inner.inherited) == [("UsdSemantics", "class", "cabinet")]
 
+    @pytest.mark.parametrize(
+        ("whole", "parts", "found"),
+        [
+            # On the only mesh, on all meshes alike, on some of them, and different ones.
+            ((), (("bucket",),), ["bucket"]),
+            ((), (("bucket",), ("bucket",)), ["bucket"]),
+            ((), (("bucket",), ()), []),
+            ((), (("bucket",), ("handle",)), []),
+            (("pail",), (("bucket",),), []),
+        ],
+    )
+    def test_labels_of_all_the_geometry_are_of_the_whole(self, labels_at, whole, parts, found):
+        meshes = [cube(f"mesh_{at}", *(usd("class", value) for value in part)) for at, part in enumerate(parts)]
+        (labels,) = labels_at(xform("W", xform("X17", *(usd("class", value) for value in whole), *meshes)), "/W/X17")
+        assert [label.value for label in labels.of_whole] == found
+
+    @pytest.mark.parametrize(
+        ("above", "beside", "found"), [("wrap_17", (), ["bucket"]), ("wrap_17", (cube("y"),), []), ("Office", (), [])]
+    )
+    def test_labels_of_a_wrapper_are_of_the_whole(self, labels_at, above, beside, found):
+        wrapper = xform(above, usd("class", "bucket"), xform("X17", cube("x")), *beside)
+        (labels,) = labels_at(xform("W", wrapper, cube("z")), f"/W/{above}/X17")
+        assert [label.value for label in labels.of_whole] == found
+
     def test_own_labels_are_not_inherited_again(self, labels_at):
         (labels,) = labels_at(xform("A", usd("class", "x", "y"), xform("B", usd("class", "x"), cube("g"))), "/A/B")
         assert [label.value for label in labels.own] == ["x"]

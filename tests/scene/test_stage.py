@@ -159,7 +159,7 @@ def test_missing_prim_of_an_existing_layer_keeps_its_object(read, write_stage):
 
 def test_missing_sublayer_is_reported_with_the_root_layer(read):
     scene = read(CUBE, layer="(\n    metersPerUnit = 1\n    subLayers = [@gone.usda@]\n)\n")
-    assert [obj.prim_path for obj in scene.objects] == ["/World"]
+    assert [obj.prim_path for obj in scene.objects] == ["/World/box"]
     note = next(note for note in scene.diagnostics if "gone.usda" in note.message)
     assert (note.code, note.layer) == ("composition", scene.source)
 

@@ -11,7 +11,7 @@ from usd2kg.scene.bounds import BoxReader
 from usd2kg.scene.evidence import own_records
 from usd2kg.scene.label_encodings import CLASS_TAXONOMIES
 from usd2kg.scene.label_lint import LabelProblem, find_problems, stage_prims
-from usd2kg.scene.label_reader import LabelReader, read_labels
+from usd2kg.scene.label_reader import LabelReader, class_reader, read_labels
 from usd2kg.scene.model import Label
 from usd2kg.scene.object_selection import select_objects
 from usd2kg.scene.options import ReadOptions
@@ -63,7 +63,7 @@ def survey_labels(source: Path | str | Usd.Stage, options: ReadOptions | None = 
     time = Usd.TimeCode.EarliestTime() if options.time is None else Usd.TimeCode(options.time)
     with translated_errors(opened.source), captured_diagnostics(), outline_stage(opened, time) as outline:
         boxes = BoxReader(opened.frame, time, paths_above_endless(outline))
-        selection = select_objects(outline, options.selection, boxes.read_below)
+        selection = select_objects(outline, options.selection, boxes.read_below, class_reader(time))
         nodes = {node.path: node for node in outline.records}
         prims = list(stage_prims(opened.stage))
         read = [(prim, labels) for prim in prims if (labels := _read_labels(prim, time))]

@@ -23,6 +23,7 @@ from usd2kg.scene.model import (
 )
 from usd2kg.scene.object_selection import ASKED_FOR
 from usd2kg.scene.options import ReadOptions, SelectionOverrides
+from usd2kg.scene.robots import ROBOT
 
 if TYPE_CHECKING:
     from usd2kg.scene.label_encodings import class_words
@@ -42,6 +43,7 @@ _LAZY = {
 
 __all__ = [
     "ASKED_FOR",
+    "ROBOT",
     "Box",
     "Diagnostic",
     "Encoding",

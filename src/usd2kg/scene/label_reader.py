@@ -1,6 +1,6 @@
 """Labels of prims and objects, in all encodings."""
 
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import replace
 from typing import Any
 
@@ -9,9 +9,10 @@ from pxr import UsdGeom
 from usd2kg.scene.label_encodings import find_labels, predicted_confidence, semantic_names
 from usd2kg.scene.model import NO_LABELS, Label, ObjectLabels
 from usd2kg.scene.outline import PrimRecord
+from usd2kg.scene.sets_of_objects import is_room_name
 from usd2kg.scene.settings import LIMITS
 
-__all__ = ["LabelReader", "read_labels"]
+__all__ = ["LabelReader", "class_reader", "read_labels"]
 
 
 class LabelReader:
@@ -30,7 +31,24 @@ class LabelReader:
         below = [label for prim in _labelled_parts(records) for label in self._read(prim)]
         if not (own or inherited or below):
             return NO_LABELS
-        return ObjectLabels(own, inherited, _distinct(below)[: LIMITS.max_part_labels])
+        of_whole = () if own else self._of_whole(records)
+        return ObjectLabels(own, inherited, _distinct(below)[: LIMITS.max_part_labels], of_whole)
+
+    def _of_whole(self, records: list[PrimRecord]) -> tuple[Label, ...]:
+        """Return the labels on the nearest wrapper of an object, or those that all its geometry shares."""
+        root = records[0]
+        above = root.parent
+        while above is not None and above.gprim_count == root.gprim_count and not is_room_name(above.name):
+            if above.is_labelled and above.parent is not None:
+                return self._read(above.prim)
+            above = above.parent
+        gprims = [record for record in records if record.is_gprim and not record.is_hidden]
+        if not all(gprim.is_labelled for gprim in gprims):
+            return ()
+        first, *others = (self._read(gprim.prim) for gprim in gprims)
+        stated = {(label.taxonomy, label.value) for label in first}
+        is_shared = all(stated == {(label.taxonomy, label.value) for label in labels} for labels in others)
+        return first if is_shared else ()
 
     def _read(self, prim: Any) -> tuple[Label, ...]:
         known = self._known.get(str(prim.GetPath())) if self._known else None
@@ -81,3 +99,14 @@ def read_labels(prim: Any, time: Any) -> tuple[Label, ...]:
         for value in entry.values
         if value and len(value) <= LIMITS.max_text_length and (entry.taxonomy or entry.encoding != "Isaac")
     )
+
+
+def class_reader(time: Any) -> Callable[[PrimRecord], frozenset[str]]:
+    """Return a function that returns the labels on a prim itself that state its class at `time`, in lower case."""
+
+    def read(record: PrimRecord) -> frozenset[str]:
+        prim = record.source.prim
+        found = find_labels(prim, semantic_names(prim), time)
+        return frozenset(value.lower() for entry in found if entry.states_class for value in entry.values)
+
+    return read

@@ -136,6 +136,9 @@ class ObjectLabels(NamedTuple):
     """On its ancestors, nearest first, without those in `own`."""
     of_parts: tuple[Label, ...]
     """On prims and geometry subsets below it, without nested objects; at most 64."""
+    of_whole: tuple[Label, ...] = ()
+    """Those of `inherited` and `of_parts` that are about the object and nothing else: on a prim above without other
+    geometry, or alike on all geometry below. Empty if there are labels of its own."""
 
 
 NO_LABELS = ObjectLabels((), (), ())

@@ -2,7 +2,7 @@
 
 In order of precedence: the authored model hierarchy, rigid bodies, asset boundaries (references, payloads, instances),
 and for all other geometry its nearest ancestor that is not a mere grouping. The rules only see the outline, and boxes
-of unnamed geometry.
+and labels where names do not tell a group from an object.
 """
 
 import re
@@ -14,9 +14,11 @@ from usd2kg.knowledge import word_set
 from usd2kg.scene.fixtures import find_fixtures
 from usd2kg.scene.options import SelectionOverrides
 from usd2kg.scene.outline import Outline, PrimRecord
+from usd2kg.scene.piece_boxes import Measure
 from usd2kg.scene.robots import merge_robots
-from usd2kg.scene.unnamed_pieces import Measure, is_unnamed, merge_unnamed_pieces
-from usd2kg.words import split_identifier, words_of
+from usd2kg.scene.sets_of_objects import ReadClasses, SetFinder, is_room_name
+from usd2kg.scene.unnamed_pieces import is_unnamed, merge_unnamed_pieces
+from usd2kg.words import split_identifier
 
 __all__ = ["ASKED_FOR", "Selection", "explain", "path_pattern", "select_objects"]
 
@@ -27,9 +29,8 @@ _BODY = "rigid body"
 _COMPONENT = "component"
 _STRUCTURE_KINDS = frozenset({"assembly", "group"})
 _GROUPING_WORDS = word_set("scene", "grouping_words")
-_ROOM_WORDS = word_set("scene", "room_words")
-_MIN_NESTED_ASSETS = 2
-"""Least number of nested assets that make a referenced prim a set of objects."""
+_MIN_NESTED = 2
+"""Least number of nested assets or models that make a referenced prim a set of objects."""
 _MAX_LISTED = 3
 """Objects that an explanation lists."""
 
@@ -47,7 +48,11 @@ class Selection:
 
 
 def select_objects(
-    outline: Outline, overrides: SelectionOverrides, measure: Measure, wanted: tuple[str, ...] = ()
+    outline: Outline,
+    overrides: SelectionOverrides,
+    measure: Measure,
+    read_classes: ReadClasses,
+    wanted: tuple[str, ...] = (),
 ) -> Selection:
     """Return the prims of `outline` that are objects, each with the reason.
 
@@ -55,9 +60,10 @@ def select_objects(
         outline: the prims of the stage.
         overrides: changes to the rules.
         measure: returns the box of a prim.
+        read_classes: returns the labels of a prim that state its class.
         wanted: paths of prims that are objects regardless of rules and overrides.
     """
-    candidates = _apply_overrides(outline, overrides, measure)
+    candidates = _apply_overrides(outline, overrides, measure, read_classes)
     known = {record.path for record in outline.records}
     for path in wanted:
         if path in known:
@@ -67,7 +73,9 @@ def select_objects(
     return Selection(chosen, _count_left_out(outline, chosen), missing)
 
 
-def _apply_overrides(outline: Outline, overrides: SelectionOverrides, measure: Measure) -> dict[str, str]:
+def _apply_overrides(
+    outline: Outline, overrides: SelectionOverrides, measure: Measure, read_classes: ReadClasses
+) -> dict[str, str]:
     records = outline.records
     if overrides.only:
         only = frozenset(overrides.only)
@@ -75,7 +83,7 @@ def _apply_overrides(outline: Outline, overrides: SelectionOverrides, measure: M
     if overrides.is_every_prim:
         candidates = {record.path: "every prim with geometry was asked for" for record in records if record.gprim_count}
     else:
-        candidates = _by_rules(outline, frozenset(overrides.kinds or {_COMPONENT}), measure)
+        candidates = _by_rules(outline, frozenset(overrides.kinds or {_COMPONENT}), measure, read_classes)
     included = [path_pattern(pattern) for pattern in overrides.include]
     for record in records if included else ():
         if any(pattern.fullmatch(record.path) for pattern in included):
@@ -109,13 +117,14 @@ def path_pattern(pattern: str) -> re.Pattern[str]:
     return re.compile("".join(pieces.get(part, re.escape(part)) for part in parts))
 
 
-def _by_rules(outline: Outline, kinds: frozenset[str], measure: Measure) -> dict[str, str]:
-    candidates = _model_candidates(outline, kinds)
+def _by_rules(outline: Outline, kinds: frozenset[str], measure: Measure, read_classes: ReadClasses) -> dict[str, str]:
+    sets = SetFinder(measure, read_classes)
+    candidates = _model_candidates(outline, kinds, sets)
     _drop_whole_scene(outline.root, candidates)
     merge_robots(outline, candidates)
-    _merge_wrappers(outline, candidates)
+    _merge_wrappers(outline, candidates, sets)
     _raise_to_named_ancestors(outline, candidates)
-    owners = _geometry_owners(outline.root, candidates)
+    owners = _geometry_owners(outline.root, candidates, sets)
     merge_unnamed_pieces(outline, candidates, owners, measure)
     candidates.update(owners)
     for body in [record for record in outline.records if candidates.get(record.path) == _BODY]:
@@ -123,7 +132,7 @@ def _by_rules(outline: Outline, kinds: frozenset[str], measure: Measure) -> dict
     return candidates
 
 
-def _model_candidates(outline: Outline, kinds: frozenset[str]) -> dict[str, str]:
+def _model_candidates(outline: Outline, kinds: frozenset[str], sets: SetFinder) -> dict[str, str]:
     found: dict[str, str] = {}
     # (record, below a component or body, below an asset)
     pending = [(outline.root, False, False)]
@@ -139,7 +148,11 @@ def _model_candidates(outline: Outline, kinds: frozenset[str]) -> dict[str, str]
         elif record.is_instancer:
             found[record.path] = "point instancer"
         elif (
-            has_geometry and not (in_model or in_asset or record.is_gprim) and record.is_asset and _is_one_asset(record)
+            has_geometry
+            and not (in_model or in_asset or record.is_gprim)
+            and record.is_asset
+            and _is_one_asset(record, kinds)
+            and not sets.is_set_of_objects(record)
         ):
             found[record.path] = _ASSET
             in_asset = True
@@ -158,12 +171,13 @@ def _has_missing_mesh(record: PrimRecord) -> bool:
     )
 
 
-def _is_one_asset(record: PrimRecord) -> bool:
-    """Return whether a referenced prim is one object, and not a set of several assets."""
+def _is_one_asset(record: PrimRecord, kinds: frozenset[str]) -> bool:
+    """Return whether a referenced prim is one object, and not a set of several assets or models."""
     if record.kind in _STRUCTURE_KINDS:
         return False
-    nested = sum(1 for below in record.walk() if below is not record and not below.is_gprim and below.is_asset)
-    return nested < _MIN_NESTED_ASSETS
+    below = [prim for prim in record.walk() if prim is not record and not prim.is_gprim]
+    assets, models = sum(prim.is_asset for prim in below), sum(prim.kind in kinds for prim in below)
+    return max(assets, models) < _MIN_NESTED
 
 
 def _drop_whole_scene(root: PrimRecord, candidates: dict[str, str]) -> None:
@@ -187,22 +201,23 @@ def _nearest_below(record: PrimRecord, candidates: dict[str, str]) -> list[PrimR
     return found
 
 
-def _merge_wrappers(outline: Outline, candidates: dict[str, str]) -> None:
-    """Resolve candidates without geometry of their own, which wrap nested candidates.
+def _merge_wrappers(outline: Outline, candidates: dict[str, str], sets: SetFinder) -> None:
+    """Resolve candidates that wrap nested ones.
 
-    A wrapper replaces a single nested candidate. Several nested candidates replace a wrapper without authored kind.
+    One without geometry of its own replaces a single nested candidate. Several nested candidates replace a wrapper
+    without geometry and authored kind, and one that is a furnished room.
     """
     for record in reversed(outline.records):
         if record.path not in candidates or record.is_instancer or record.is_gprim:
             continue
         nested = _nearest_below(record, candidates)
         own_gprims = record.gprim_count - sum(below.gprim_count for below in nested)
-        if own_gprims or not nested:
-            continue
-        if len(nested) == 1:
+        if len(nested) == 1 and not own_gprims:
             del candidates[nested[0].path]
-        elif not candidates[record.path].startswith("authored kind"):
-            del candidates[record.path]
+        elif len(nested) > 1:
+            is_mere_wrapper = not own_gprims and not candidates[record.path].startswith("authored kind")
+            if is_mere_wrapper or sets.is_furnished_room(nested):
+                del candidates[record.path]
 
 
 def _raise_to_named_ancestors(outline: Outline, candidates: dict[str, str]) -> None:
@@ -230,11 +245,11 @@ class _Cover:
     """The prims that own them."""
 
 
-def _geometry_owners(root: PrimRecord, candidates: dict[str, str]) -> dict[str, str]:
+def _geometry_owners(root: PrimRecord, candidates: dict[str, str], sets: SetFinder) -> dict[str, str]:
     covers: dict[str, _Cover] = {}
     # Bottom-up without recursion: a stage may be nested deeper than Python's stack.
     for record in reversed(list(_open_records(root, candidates))):
-        covers[record.path] = _cover(record, candidates, covers)
+        covers[record.path] = _cover(record, candidates, covers, sets)
     return {record.path: "geometry without a model above it" for record in covers[root.path].owners}
 
 
@@ -248,7 +263,7 @@ def _open_records(root: PrimRecord, candidates: dict[str, str]) -> Iterator[Prim
             pending.extend(reversed(record.children))
 
 
-def _cover(record: PrimRecord, candidates: dict[str, str], covers: dict[str, _Cover]) -> _Cover:
+def _cover(record: PrimRecord, candidates: dict[str, str], covers: dict[str, _Cover], sets: SetFinder) -> _Cover:
     if record.path in candidates:
         return _Cover(holds_objects=True)
     below = [covers.pop(child.path) for child in record.children]
@@ -258,16 +273,16 @@ def _cover(record: PrimRecord, candidates: dict[str, str], covers: dict[str, _Co
     if is_own:
         cover.owners = [record]
     elif cover.uncovered:
-        cover.owners = _owners_at(record, cover, below)
+        cover.owners = _owners_at(record, cover, below, sets)
     return cover
 
 
-def _owners_at(record: PrimRecord, cover: _Cover, below: list[_Cover]) -> list[PrimRecord]:
+def _owners_at(record: PrimRecord, cover: _Cover, below: list[_Cover], sets: SetFinder) -> list[PrimRecord]:
     found = [owner for c in below for owner in c.owners]
     has_gprims = any(child.is_gprim and c.uncovered for child, c in zip(record.children, below, strict=True))
     is_grouping = _is_grouping(record, cover.holds_objects)
     if has_gprims and not is_grouping:
-        return [record]
+        return found if sets.is_set(record, found) else [record]
     is_lone_root = _is_lone_root(record) and not cover.holds_objects
     # A name is kept below wrappers without one (Xform_2/ControlPanel/mesh) and in rooms (Office/Desk/mesh).
     says_less = len(found) == 1 and not is_unnamed(found[0].name) and _says_less(record.name, found[0])
@@ -281,15 +296,18 @@ def _owners_at(record: PrimRecord, cover: _Cover, below: list[_Cover]) -> list[P
 
 def _says_less(name: str, owner: PrimRecord) -> bool:
     """Return whether the name of a prim says less of what it is than that of the only owner below it."""
-    is_room = not _ROOM_WORDS.isdisjoint(words_of(name)[-1:])
-    return is_unnamed(name) or (is_room and not owner.is_gprim)
+    return is_unnamed(name) or _is_group_name(name) or (is_room_name(name) and not owner.is_gprim)
 
 
 def _is_grouping(record: PrimRecord, holds_objects: bool) -> bool:
     is_top = record.parent is None or record.parent.parent is None
-    last_words = [word.lower() for word in split_identifier(record.name) if word.isalpha()][-1:]
-    is_named_group = not _GROUPING_WORDS.isdisjoint(last_words)
-    return is_top or record.is_scope or record.kind in _STRUCTURE_KINDS or is_named_group or holds_objects
+    is_structure = record.is_scope or record.kind in _STRUCTURE_KINDS or _is_group_name(record.name)
+    return is_top or is_structure or holds_objects
+
+
+def _is_group_name(name: str) -> bool:
+    last_words = [word.lower() for word in split_identifier(name) if word.isalpha()][-1:]
+    return not _GROUPING_WORDS.isdisjoint(last_words)
 
 
 def _is_lone_root(record: PrimRecord) -> bool:

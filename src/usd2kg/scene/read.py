@@ -24,7 +24,7 @@ from usd2kg.scene.evidence import (
 from usd2kg.scene.instancers import count_copies, read_copies
 from usd2kg.scene.joints import read_joints
 from usd2kg.scene.label_lint import lint_labels
-from usd2kg.scene.label_reader import LabelReader
+from usd2kg.scene.label_reader import LabelReader, class_reader
 from usd2kg.scene.levels import LevelReader, holds_others
 from usd2kg.scene.metadata import MaterialReader, clean_text, source_id, text_attributes, variant_selections
 from usd2kg.scene.model import NO_LABELS, Box, Diagnostic, Scene, SceneObject
@@ -95,7 +95,8 @@ def _read_stage(source: Path | str | Usd.Stage, paths: Iterable[str] | None, opt
         outline_stage(opened, time) as outline,
     ):
         boxes = BoxReader(opened.frame, time, paths_above_endless(outline))
-        selection = select_objects(outline, options.selection, boxes.read_below, tuple(dict.fromkeys(paths or ())))
+        wanted = tuple(dict.fromkeys(paths or ()))
+        selection = select_objects(outline, options.selection, boxes.read_below, class_reader(time), wanted)
         reader = _ObjectReader(opened, outline, selection.chosen, boxes)
         found = _find_objects(outline, selection.chosen, options.expand_instancers)
         objects = _read_objects(reader, found)
@@ -151,7 +152,7 @@ def explain_choice(source: Path | str | Usd.Stage, path: str, options: ReadOptio
     time = time_code(options.time)
     with translated_errors(opened.source), captured_diagnostics(), outline_stage(opened, time) as outline:
         boxes = BoxReader(opened.frame, time, paths_above_endless(outline))
-        selection = select_objects(outline, options.selection, boxes.read_below)
+        selection = select_objects(outline, options.selection, boxes.read_below, class_reader(time))
         if not opened.stage.GetPrimAtPath(path):
             raise SceneError(
                 f"{opened.source}: there is no prim {path}; expected an absolute path, `usd2kg inspect` lists them"

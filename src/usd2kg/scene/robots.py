@@ -5,8 +5,10 @@ from collections.abc import Iterator, Mapping, Sequence
 from usd2kg.scene.outline import JointLink, Outline, PrimRecord
 from usd2kg.scene.settings import ROBOTS
 
-__all__ = ["merge_robots"]
+__all__ = ["ROBOT", "merge_robots"]
 
+ROBOT = "robot: a chain of revolute joints"
+"""The reason of an object that was merged from the links of an arm."""
 _REVOLUTE = "PhysicsRevoluteJoint"
 
 
@@ -31,7 +33,7 @@ def _merge_nested(outline: Outline, candidates: dict[str, str]) -> None:
 def _merge(record: PrimRecord, candidates: dict[str, str]) -> None:
     for below in record.walk():
         candidates.pop(below.path, None)
-    candidates[record.path] = "robot: a chain of revolute joints"
+    candidates[record.path] = ROBOT
 
 
 def _nested_chain(record: PrimRecord, turning: set[str]) -> int:

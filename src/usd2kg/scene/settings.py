@@ -13,6 +13,7 @@ __all__ = [
     "MESHES",
     "ROBOTS",
     "SANITY",
+    "SETS",
     "SOLIDS",
     "SURFACES",
     "TEXTS",
@@ -24,6 +25,7 @@ __all__ = [
     "MeshSettings",
     "RobotSettings",
     "SanitySettings",
+    "SetSettings",
     "SolidSettings",
     "SurfaceSettings",
     "TextSettings",
@@ -92,6 +94,15 @@ class SurfaceSettings(NamedTuple):
     max_total_points: int
 
 
+class SetSettings(NamedTuple):
+    """Which prims hold several objects; lengths are metres."""
+
+    min_objects: int
+    max_gap: float
+    max_gap_share: float
+    min_room: float
+
+
 class UnnamedSettings(NamedTuple):
     """Pieces without meaningful names."""
 
@@ -141,6 +152,7 @@ SOLIDS = read_settings("scene", "solids", SolidSettings)
 MESHES = read_settings("scene", "meshes", MeshSettings)
 LEVELS = read_settings("scene", "levels", LevelSettings)
 SURFACES = read_settings("scene", "surfaces", SurfaceSettings)
+SETS = read_settings("scene", "sets", SetSettings)
 UNNAMED = read_settings("scene", "unnamed", UnnamedSettings)
 ROBOTS = read_settings("scene", "robots", RobotSettings)
 JOINTS = read_settings("scene", "joints", JointSettings)

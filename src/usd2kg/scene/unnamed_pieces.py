@@ -1,26 +1,19 @@
 """Unnamed pieces of geometry, as converters produce them: merged into objects by position."""
 
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from dataclasses import dataclass, field
 
-import numpy as np
-from numpy.typing import NDArray
-
 from usd2kg.knowledge import word_set
-from usd2kg.scene.model import Box
 from usd2kg.scene.outline import Outline, PrimRecord
+from usd2kg.scene.piece_boxes import Measure, PieceBoxes
 from usd2kg.scene.settings import UNNAMED
 from usd2kg.words import words_of
 
-__all__ = ["UNNAMED_PIECES", "Measure", "is_unnamed", "merge_unnamed_pieces"]
+__all__ = ["UNNAMED_PIECES", "is_unnamed", "merge_unnamed_pieces"]
 
 UNNAMED_PIECES = "connected unnamed pieces"
 """The reason of an object that was merged from pieces."""
 _UNNAMED_WORDS = word_set("scene", "unnamed_words")
-
-_Points = NDArray[np.float64]
-Measure = Callable[[PrimRecord], Box | None]
-"""Returns the world box of all geometry at and below a prim, in metres; None if there is none."""
 
 
 def is_unnamed(name: str) -> bool:
@@ -52,7 +45,7 @@ def merge_unnamed_pieces(
     """
     if not any(is_unnamed(path.rpartition("/")[2]) for path in owners):
         return
-    boxes = _PieceBoxes(measure)
+    boxes = PieceBoxes(measure)
     merged: set[str] = set()
     for record, pieces in _unnamed_groups(outline, candidates, owners):
         if merged.isdisjoint(_paths_above(record)) and boxes.are_one_object(pieces):
@@ -113,57 +106,3 @@ def _paths_above(record: PrimRecord) -> Iterator[str]:
     while above is not None:
         yield above.path
         above = above.parent
-
-
-class _PieceBoxes:
-    """Boxes of pieces, each measured once."""
-
-    def __init__(self, measure: Measure) -> None:
-        self._measure = measure
-        self._known: dict[str, Box | None] = {}
-        self._answers: dict[int, bool] = {}
-        """id of a list of pieces → whether they are one object; nested groups with one child share their list."""
-
-    def are_one_object(self, pieces: list[PrimRecord]) -> bool:
-        """Return whether most pieces have a single mesh, and all are connected and no larger than furniture."""
-        if id(pieces) not in self._answers:
-            self._answers[id(pieces)] = self._compare(pieces)
-        return self._answers[id(pieces)]
-
-    def _compare(self, pieces: list[PrimRecord]) -> bool:
-        if 2 * sum(1 for piece in pieces if piece.gprim_count == 1) < len(pieces):
-            return False
-        lower, upper = self._corners(pieces)
-        return bool(len(lower)) and _extent(lower, upper) <= UNNAMED.max_extent and _are_connected(lower, upper)
-
-    def is_scattered(self, pieces: list[PrimRecord]) -> bool:
-        """Return whether pieces are disconnected and larger than furniture."""
-        lower, upper = self._corners(pieces)
-        return bool(len(lower)) and _extent(lower, upper) > UNNAMED.max_extent and not _are_connected(lower, upper)
-
-    def _corners(self, pieces: list[PrimRecord]) -> tuple[_Points, _Points]:
-        for piece in pieces:
-            if piece.path not in self._known:
-                self._known[piece.path] = self._measure(piece)
-        boxes = [box for piece in pieces if (box := self._known[piece.path]) is not None]
-        return np.array([box.lower for box in boxes]), np.array([box.upper for box in boxes])
-
-
-def _extent(lower: _Points, upper: _Points) -> float:
-    return float((upper.max(axis=0) - lower.min(axis=0)).max())
-
-
-def _are_connected(lower: _Points, upper: _Points) -> bool:
-    """Return whether boxes (n, 3) are one connected component under touching, with a tolerance."""
-    is_left = np.ones(len(lower), dtype=bool)
-    is_left[0] = False
-    pending = [0]
-    while pending and is_left.any():
-        at = pending.pop()
-        is_near = (lower <= upper[at] + UNNAMED.max_gap).all(axis=1) & (upper >= lower[at] - UNNAMED.max_gap).all(
-            axis=1
-        )
-        is_near &= is_left
-        is_left &= ~is_near
-        pending.extend(np.flatnonzero(is_near).tolist())
-    return not is_left.any()
