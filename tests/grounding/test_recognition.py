@@ -12,6 +12,7 @@ from usd2kg.grounding.lexical.recognition import ConfidenceWeights, describe_con
 from usd2kg.knowledge import read_text
 from usd2kg.ontology import TBox, load_home_tbox
 from usd2kg.scene import Scene
+from usd2kg.scene.model import Label, ObjectLabels
 
 HALL = make_tbox(make_class("Asset"), make_class("Machine", "Asset", label="machine"))
 """An ontology without a class for any object of a home."""
@@ -62,6 +63,14 @@ class TestWords:
     @pytest.mark.parametrize("name", ["Cube_12", "obj_042", "xqzt", "__"])
     def test_words_that_name_nothing_have_none(self, name: str):
         assert concept_of(name) is None
+
+    @pytest.mark.parametrize(
+        ("name", "label", "concept"),
+        [("SM_PaletteA_01", "pallet", "pallet"), ("armchair_2", "chair", "armchair"), ("chair_77", "Q11442", "chair")],
+    )
+    def test_a_label_that_contradicts_the_name_decides(self, name: str, label: str, concept: str):
+        own = (Label(f"/World/{name}", "Isaac", "class", label),)
+        assert concept_of(name, labels=ObjectLabels(own, (), ())) == concept
 
     def test_an_asset_names_it_where_the_name_does_not(self):
         assert concept_of("obj_042", asset=("teapot",)) == "teapot"

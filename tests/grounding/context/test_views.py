@@ -11,7 +11,7 @@ from tests.grounding.records import neighbours_of
 from tests.scene.usda import component, cube, prim, xform
 from usd2kg.grounding import EVIDENCE_GROUPS, STUDY_GROUPS, NamingRegime, ObjectView, view_objects
 from usd2kg.grounding.context import abbreviate
-from usd2kg.scene import Box, Label, ObjectLabels, Scene, SceneObject, StageFrame
+from usd2kg.scene import ROBOT, Box, Label, ObjectLabels, Scene, SceneObject, StageFrame
 
 MASKED = [NamingRegime.ABBREVIATED, NamingRegime.OPAQUE, NamingRegime.OPAQUE_ANONYMOUS]
 
@@ -239,6 +239,12 @@ def label_words(*own, inherited=(), of_parts=()):
     labelled = replace(thing("/W/x"), labels=ObjectLabels(own, inherited, of_parts))
     scene = scene_of()
     return views(replace(scene, objects=(labelled,)))[0].labels
+
+
+def test_what_is_articulated_like_a_robot_is_labelled_as_one():
+    panda = replace(thing("/W/panda"), selected_by=ROBOT, labels=ObjectLabels((), (), ()))
+    labelled = replace(panda, labels=ObjectLabels((label("class", "crane"),), (), ()))
+    assert [view.labels for view in views(replace(scene_of(), objects=(panda, labelled)))] == [("robot",), ("crane",)]
 
 
 @pytest.mark.parametrize(

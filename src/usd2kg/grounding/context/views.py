@@ -15,6 +15,7 @@ from usd2kg.grounding.context.neighbours import Neighbourhood, neighbourhoods
 from usd2kg.grounding.context.placement import Appearance, BoxGrid, Placement
 from usd2kg.grounding.context.settings import LABELS
 from usd2kg.scene.model import Scene, SceneObject, Vector
+from usd2kg.scene.robots import ROBOT
 from usd2kg.words import split_identifier
 
 __all__ = [
@@ -212,19 +213,21 @@ def _with_evidence(
 
 
 def _label_words(obj: SceneObject) -> tuple[str, ...]:
-    """Return the class labels on the object's own prim as names: `drawer` for WordNet's `drawer.n.wn.artifact`.
+    """Return the class labels of the whole object as names: `drawer` for WordNet's `drawer.n.wn.artifact`.
 
-    A prediction that was written as a label is evidence only if it was as certain as labels are.
+    A prediction that was written as a label is evidence only if it was as certain as labels are. What is articulated
+    like a robot is labelled as one, whatever animal it is named after.
     """
     values = [
         label.iri or label.value
-        for label in obj.labels.own
+        for label in obj.labels.own or obj.labels.of_whole
         if label.strength == "label"
         and (label.confidence is None or label.confidence >= LABELS.min_confidence)
         and (label.encoding == "Multiverse" or label.taxonomy in _CLASS_TAXONOMIES)
     ]
     local = (re.split(r"[#/]", value.rstrip("#/"))[-1] for value in values)
-    return tuple(dict.fromkeys(re.split(r"\.[nvasr]\.", name)[0] for name in local))
+    stated = tuple(dict.fromkeys(re.split(r"\.[nvasr]\.", name)[0] for name in local))
+    return stated if stated or obj.selected_by != ROBOT else ("robot",)
 
 
 def _masked_names(scene: Scene, regime: NamingRegime, length: int) -> list[str]:

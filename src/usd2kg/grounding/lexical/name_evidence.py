@@ -18,7 +18,7 @@ from usd2kg.grounding.lexical.reading.object_words import ObjectWords, object_wo
 from usd2kg.grounding.lexical.reading.shortening import may_be_short
 from usd2kg.grounding.lexical.settings import ABBREVIATED_NAME, EVIDENCE, KIND_RANKING
 from usd2kg.languages import translate
-from usd2kg.ontology import ClassIRI
+from usd2kg.ontology import ClassIRI, TBox
 from usd2kg.words import is_content_word, split_identifier
 
 __all__ = ["NameEvidence"]
@@ -46,12 +46,14 @@ class NameEvidence:
 
     def __init__(
         self,
+        tbox: TBox,
         lexicon: Lexicon,
         taxonomy: Taxonomy,
         reader: NameReader,
         matcher: PhraseMatcher,
         ranker: ClassRanker | None = None,
     ) -> None:
+        self._tbox = tbox
         self._lexicon = lexicon
         self._taxonomy = taxonomy
         self._reader = reader
@@ -83,10 +85,26 @@ class NameEvidence:
     def score_words(self, words: ObjectWords, *, is_made_for_it: bool) -> list[ScoredClass]:
         """Return the classes that words support, best first; reading stops at the first clear source.
 
+        A label that contradicts a clear name or asset decides: somebody stated it about this object, and the name is
+        often that of an asset.
+
         Args:
             words: the words of the object.
             is_made_for_it: see `is_made_for_stage`.
         """
+        scored = self._score_until_clear(words, is_made_for_it)
+        if words.labels and scored and scored[0].group in {"name", "asset"}:
+            stated = self._score_until_clear(words.labels_alone(), is_made_for_it)
+            if stated and stated[0].score >= EVIDENCE.clear_score and self._contradicts(stated[0], scored[0]):
+                return stated
+        return scored
+
+    def _contradicts(self, stated: ScoredClass, named: ScoredClass) -> bool:
+        """Return whether a label states another class than the name, and not just a more general one."""
+        classes = (named.class_iri, stated.class_iri)
+        return all(iri in self._tbox.by_iri for iri in classes) and not self._tbox.is_subclass(*classes)
+
+    def _score_until_clear(self, words: ObjectWords, is_made_for_it: bool) -> list[ScoredClass]:
         scored: list[ScoredClass] = []
         for found in self.score_sources(words, is_made_for_it=is_made_for_it):
             scored = sorted([*scored, *found], key=lambda each: (-each.score, each.class_iri))

@@ -94,7 +94,8 @@ class ObjectGrounder:
         terms = TermMatcher(self._tbox, self._lexicon, taxonomy, self.reader)
         self.matcher = PhraseMatcher(terms, taxonomy, self.reader)
         self._is_fallback = terms.is_fallback
-        self._words = NameEvidence(self._lexicon, taxonomy, self.reader, self.matcher, self._class_ranker(tables))
+        ranker = self._class_ranker(tables)
+        self._words = NameEvidence(self._tbox, self._lexicon, taxonomy, self.reader, self.matcher, ranker)
         self._context = ContextEvidence(self._tbox, self._words, self.reader, self.matcher, tables)
         # Copies of one model have the same words and size; they differ in their neighbours, which clear words ignore.
         self._predict_by_words = lru_cache(maxsize=1024)(self._predict_clear)

@@ -77,7 +77,8 @@ class ConceptRecognizer:
     def __init__(self, taxonomy: Taxonomy) -> None:
         # Not all words of compound names are nouns of the taxonomy: the night of a nightstand.
         self._reader = NameReader(Lexicon({}, {}, home_words().counts, None, frozenset(), frozenset(), {}), taxonomy)
-        self._matcher = PhraseMatcher(_SenseMatcher(taxonomy, self._reader), taxonomy, self._reader)
+        self._senses = _SenseMatcher(taxonomy, self._reader)
+        self._matcher = PhraseMatcher(self._senses, taxonomy, self._reader)
         # Scenes cache results by the identity of the function, and each access to a method creates a new object.
         self._find_prefix = partial(shared_prefix, names_object=self._reader.names_known_noun)
         self._recognize_text = lru_cache(maxsize=8192)(self._read_and_match)
@@ -99,6 +100,14 @@ class ConceptRecognizer:
         return self._recognize_words(object_words(view, self._reader))
 
     def _recognize_texts(self, words: ObjectWords) -> Recognition | None:
+        """Return the concept of the first text that names one, or of a label that contradicts it."""
+        named = self._recognize_first(words)
+        stated = self._recognize_first(words.labels_alone()) if words.labels else None
+        if named is None or stated is None or self._senses.is_subclass(named.concept, stated.concept):
+            return named
+        return stated
+
+    def _recognize_first(self, words: ObjectWords) -> Recognition | None:
         for group, text in texts_of(words):
             is_name = group == "name"
             if group == "parts" or (is_name and is_generated_name(text)):

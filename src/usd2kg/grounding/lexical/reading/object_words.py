@@ -25,6 +25,10 @@ class ObjectWords(NamedTuple):
     extent: Extent | None
     """None if the size is unknown."""
 
+    def labels_alone(self) -> "ObjectWords":
+        """Return the labels without the other words."""
+        return ObjectWords("", self.parents, (), "", "", (), self.labels, (), self.extent)
+
 
 def object_words(view: ObjectView, reader: NameReader) -> ObjectWords:
     """Return the words of an object, with the numbers that matter to a reader of names."""
