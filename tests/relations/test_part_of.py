@@ -65,6 +65,15 @@ class TestStated:
         nested = make_object("/cab/flap", parent_path="/cab"), "DesignedArtifact"
         assert list(parts(self.CABINET, nested, joints=[joint("/cab/flap", "/cab")])) == [("/cab/flap", "/cab")]
 
+    @pytest.mark.parametrize("ends", [("/bracket", "/screen"), ("/screen", "/bracket")])
+    @pytest.mark.parametrize("fixed", [(None, "/bracket"), ("/bracket", None)])
+    def test_what_is_fixed_to_the_world_is_the_whole(self, ends: tuple[str, str], fixed: Any):
+        bracket = (thing("/bracket", (0, 0, 0), (0.1, 0.1, 0.1)), "DesignedComponent")
+        screen = (thing("/screen", (0, 0, 0.1), (0.6, 0.1, 0.4)), "Appliance")
+        joints = [joint(*ends), joint(*fixed, kind="fixed")]
+        assert list(parts(bracket, screen, joints=joints)) == [("/screen", "/bracket")]
+        assert list(parts(bracket, screen, joints=joints[:1])) == [("/bracket", "/screen")]
+
     def test_floor_is_never_a_whole(self):
         floor = (thing("/floor", (-5, -5, -0.1), (10, 10, 0.1)), "Floor")
         robot = (thing("/robot", (2, 0, 0), (0.5, 0.5, 0.9)), "DesignedArtifact")
@@ -336,6 +345,27 @@ class TestCasters:
         wheel = (thing("/R/t/wheel", (0, 0, 0), (0.24, 0.24, 0.1)), "DesignedComponent")
         vase = (thing("/R/t/vase", (0.02, 0.02, 0.1), (0.2, 0.2, 0.4)), "DesignedContainer")
         assert parts(wheel, vase) == {}
+
+
+class TestWheelsOnJoints:
+    BODY = (thing("/R/c/body", (0, 0, 0.15), (1, 0.6, 0.5)), "DesignedArtifact")
+    WHEELS = tuple(
+        (thing(f"/R/c/wheel_{n}", (x, y, 0), (0.2, 0.05, 0.2)), "DesignedComponent")
+        for n, (x, y) in enumerate([(0, 0), (0.8, 0), (0, 0.55), (0.8, 0.55)])
+    )
+    JOINTS = tuple(joint("/R/c/body", f"/R/c/wheel_{n}") for n in range(4))
+
+    def test_a_cart_is_on_what_its_wheels_are_on(self):
+        found = relate(FLOOR, self.BODY, *self.WHEELS, joints=self.JOINTS)
+        on_floor = {r.target for r in found if (r.kind, r.anchor) == ("on", "/floor")}
+        assert on_floor == {"/R/c/body", *(f"/R/c/wheel_{n}" for n in range(4))}
+        assert sum(r.target == "/R/c/body" for r in found) == 1
+
+    def test_a_door_that_reaches_no_lower_than_its_case_is_not_on_the_floor(self):
+        case = (thing("/R/case", (0, 0, 0), (0.6, 0.6, 0.8)), "KitchenCabinet")
+        door = (thing("/R/door", (0, -0.02, 0), (0.6, 0.02, 0.8)), "DesignedComponent")
+        found = relate(FLOOR, case, door, joints=[joint("/R/case", "/R/door")])
+        assert [r.target for r in found if r.anchor == "/floor"] == ["/R/case"]
 
 
 class TestLids:

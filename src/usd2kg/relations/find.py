@@ -120,7 +120,7 @@ class _Finder:
         loose, container = stronger.is_loose, containment.container
         support = find_support(self.boxed, self.classes, loose, container, wholes, self.rules)
         firm = without_unheld(self.boxed, self.classes, stronger.frame, support.links, self.rules.attached)
-        resting = stronger.add_support(firm)
+        resting = stronger.add_support([*firm, *stronger.raise_to_wholes(firm)])
         leads, at_end = self._leads(stronger, resting)
         # What would tip over and touches a wall hangs there.
         tipping = resting[0].target[are_unbalanced(self.boxed, resting[0])]

@@ -100,6 +100,7 @@ def _links(rule: str, found: dict[int, int]) -> Links:
 
 def _iter_jointed(scene: Scene, number: dict[str, int], is_component: Mask) -> Iterator[tuple[int, int]]:
     """Yield (part, whole) for each movable joint between two objects."""
+    fixed = {number_of for joint in scene.joints if (number_of := _fixed_to_world(joint, number)) is not None}
     for joint in scene.joints:
         ends = _joint_ends(joint, number)
         if ends is None:
@@ -107,10 +108,20 @@ def _iter_jointed(scene: Scene, number: dict[str, int], is_component: Mask) -> I
         hung, moved = ends
         hung_path, moved_path = scene.objects[hung].prim_path, scene.objects[moved].prim_path
         # Some exporters swap the two bodies.
-        is_reversed = hung_path.startswith(moved_path + "/") or (
-            not moved_path.startswith(hung_path + "/") and is_component[hung] and not is_component[moved]
-        )
+        if (hung in fixed) != (moved in fixed):
+            is_reversed = moved in fixed
+        else:
+            is_reversed = hung_path.startswith(moved_path + "/") or (
+                not moved_path.startswith(hung_path + "/") and is_component[hung] and not is_component[moved]
+            )
         yield (hung, moved) if is_reversed else (moved, hung)
+
+
+def _fixed_to_world(joint: Joint, number: dict[str, int]) -> int | None:
+    """Return the index of the object that a joint fixes to the world; None if it fixes none."""
+    if joint.type != "fixed" or (joint.body0 is None) == (joint.body1 is None):
+        return None
+    return _object_at(joint.body0 or joint.body1 or "", number)
 
 
 def _joint_ends(joint: Joint, number: dict[str, int]) -> tuple[int, int] | None:

@@ -7,6 +7,7 @@ from usd2kg.relations.adjacency import NearbyPairs
 from usd2kg.relations.array_records import select_rows
 from usd2kg.relations.boxed_objects import BoxedObjects
 from usd2kg.relations.containment import Containment
+from usd2kg.relations.foot_contacts import ROUNDING
 from usd2kg.relations.model import Links
 from usd2kg.relations.part_of import PartLinks, boxed_ends
 
@@ -22,7 +23,10 @@ class StrongerRelations:
     def __init__(self, boxed: BoxedObjects, containment: Containment, parts: PartLinks) -> None:
         self._count = len(boxed)
         self.is_loose = np.ones(len(boxed), np.bool_)
-        """Whether each object may rest on another; parts that move on a joint may not."""
+        """Whether each object may rest on another.
+
+        Parts that move on a joint may only if they reach below what they move on: wheels, not drawers and doors.
+        """
         self.container = containment.container
         """Index of the container of each object; -1 for none."""
         self.frame = containment.container.copy()
@@ -35,8 +39,11 @@ class StrongerRelations:
         self._attached_to = np.full(len(boxed), -1)
         self._part_keys = np.concatenate([self._keep_parts(*boxed_ends(boxed, links)) for links in parts])
         self._keys = [self._part_keys, *(self._key(links.target, links.anchor) for links in containment.links)]
-        moved, _ = boxed_ends(boxed, parts.stated)
-        self.is_loose[moved[moved >= 0]] = False
+        moved, hung = boxed_ends(boxed, parts.stated)
+        moved, hung = moved[(moved >= 0) & (hung >= 0)], hung[(moved >= 0) & (hung >= 0)]
+        self._bears = np.zeros(len(boxed), np.bool_)
+        self._bears[moved] = boxed.lower[moved, 2] < boxed.lower[hung, 2] - ROUNDING
+        self.is_loose[moved] = self._bears[moved]
 
     def _keep_parts(self, part: Indices, whole: Indices) -> Indices:
         known = (part >= 0) & (whole >= 0)
@@ -73,6 +80,23 @@ class StrongerRelations:
             known = np.concatenate([known, key])
             passed.append(links._replace(anchor=anchor).where(is_new))
         return passed
+
+    def raise_to_wholes(self, support: list[Links]) -> list[Links]:
+        """Return `on` links of wholes that rest on nothing themselves, with what their wheels are on."""
+        is_supported = np.zeros(self._count, np.bool_)
+        for links in support:
+            is_supported[links.target] = True
+        raised: list[Links] = []
+        for links in support:
+            whole = self._whole[links.target]
+            is_borne = self._bears[links.target] & (whole >= 0) & ~is_supported[whole] & (links.anchor != whole)
+            found = links._replace(target=whole).where(is_borne)
+            _, first = np.unique(found.target, return_index=True)
+            is_first = np.zeros(len(found.target), np.bool_)
+            is_first[first] = True
+            raised.append(found.where(is_first))
+            is_supported[found.target] = True
+        return raised
 
     def replace_support(self, support: list[Links], links: Links) -> list[Links]:
         """Record `attached-to` links instead of the support of their targets, and return the `on` links left."""
