@@ -44,6 +44,21 @@ def test_what_is_below_a_room_may_be_stated_to_be_in_another(tmp_path: Path):
     assert find_related(facts, "inside", ["urn:h"], is_direct=True) == {"urn:b"}
 
 
+@pytest.mark.parametrize(
+    ("question", "sentence"),
+    [
+        ("in which room is the bed?", "bed_frame is in the room guest_room."),
+        ("which room is the iron in?", "iron is in the room guest_room."),
+        (
+            "where is the bed?",
+            "bed_frame is on the floor slab floor_slab, in the room guest_room, at (1.24, -1.90, 0.14) m.",
+        ),
+    ],
+)
+def test_the_room_of_a_thing_on_the_floor(hotel: GraphStore, question: str, sentence: str):
+    assert ask_offline(hotel, question).sentence == sentence
+
+
 def test_rooms_are_counted(hotel: GraphStore):
     assert ask_offline(hotel, "which rooms are there?").sentence == "There are five rooms."
 

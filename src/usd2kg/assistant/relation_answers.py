@@ -5,7 +5,7 @@ from collections.abc import Mapping, Sequence
 
 from usd2kg.assistant.answers import Answers, Handler
 from usd2kg.assistant.interpreted_answer import InterpretedAnswer
-from usd2kg.assistant.sentences import begin_sentence, join_few, name_things, split_number, yes_or_no
+from usd2kg.assistant.sentences import begin_sentence, join_few, name_things, split_number, the_thing, yes_or_no
 from usd2kg.errors import GraphError
 from usd2kg.knowledge import word_set
 from usd2kg.query.lookup import Things, UnknownWordError
@@ -104,7 +104,9 @@ class RelationAnswers(Answers):
             found = found | find_over_covers(facts, anchors.iris)
         chosen, note = self._completed(name, found, anchors.iris, what)
         notes = f"{what.suffix if what else ''}{anchors.suffix}{note}"
-        place = f"{'directly ' if is_direct(relation) else ''}{PREPOSITIONS[name]} {self._things.the(anchors)}"
+        place = (
+            f"{'directly ' if is_direct(relation) else ''}{PREPOSITIONS[name]} {self._the_used(name, chosen, anchors)}"
+        )
         if chosen:
             verb = "is" if len(chosen) == 1 else "are"
             named = name_things(facts, chosen)
@@ -115,6 +117,17 @@ class RelationAnswers(Answers):
             named = "Nothing" if what is None or what.text == "thing" else f"No {what.text}"
             sentence = f"{named} {'are' if what is not None and is_plural(what.text) else 'is'} {place}{notes}."
         return InterpretedAnswer(understood, self._things.located(chosen), sentence=sentence)
+
+    def _the_used(self, name: str, chosen: Sequence[str], anchors: Things) -> str:
+        """Return the noun phrase for what things are in a relation to: one pallet, where the others are empty."""
+        is_holder = name in {"attached", "inside", "on"}
+        held = {anchor for iri in chosen if is_holder for anchor in self._facts.anchors(name, iri)}
+        used = [iri for iri in anchors.iris if iri in held]
+        if not used or len(used) == len(anchors.iris):
+            return self._things.the(anchors)
+        if len(used) == 1:
+            return the_thing(self._facts.kind(used[0]), self._facts.label(used[0]))
+        return f"{len(used)} of {self._things.the(anchors)}"
 
     def find_in_relation(
         self, name: str, anchors: Sequence[str], iris: Sequence[str] | None, *, is_direct: bool

@@ -2,6 +2,7 @@
 
 import math
 from collections.abc import Mapping
+from functools import cached_property
 
 from usd2kg.assistant.answers import Answers, Handler
 from usd2kg.assistant.interpreted_answer import InterpretedAnswer
@@ -40,6 +41,7 @@ class ThingAnswers(Answers):
             "count": self._count,
             "has-parts": self._has_parts,
             "how-many": self._how_many,
+            "in-room": self._in_room,
             "is-there": self._is_there,
             "parts-list": self._parts_list,
             "parts-of": self._parts_of,
@@ -104,7 +106,8 @@ class ThingAnswers(Answers):
             ]
             # The smallest thing that holds it says most about the place.
             held.sort(key=lambda found: self._volume(found[1]))
-            held = held or [("room", anchor) for anchor in rooms]
+            is_on_floor = all(anchor in self._floors for _, anchor in held)
+            held += [("room", anchor) for anchor in rooms if is_on_floor and (not held or len(facts.rooms) > 1)]
             places += [anchor for _, anchor in held]
             named_once = dict(reversed(held))
             said += [
@@ -124,6 +127,30 @@ class ThingAnswers(Answers):
         return InterpretedAnswer(
             f"where: {things.text}", self._things.located(things.iris), sentence=sentence, places=named
         )
+
+    def _in_room(self, thing: str) -> InterpretedAnswer:
+        facts, things = self._facts, self._nouns.existing(thing)
+        by_room: dict[str, list[str]] = {}
+        for iri in things.iris:
+            for room in facts.anchors("room", iri):
+                by_room.setdefault(room, []).append(iri)
+        if not by_room:
+            raise GraphError(f"not known: the graph does not state in which room {self._things.the(things)} is")
+        parts = [
+            f"{join_few([facts.label(iri) for iri in inside])} {'is' if len(inside) == 1 else 'are'} "
+            f"in {the_thing(facts.kind(room), facts.label(room))}"
+            for room, inside in by_room.items()
+        ]
+        return InterpretedAnswer(
+            f"room of {things.text}",
+            self._things.located(things.iris),
+            sentence=f"{'; '.join(parts)}{things.suffix}.",
+            places=tuple(map(facts.path, by_room)),
+        )
+
+    @cached_property
+    def _floors(self) -> frozenset[str]:
+        return frozenset(self._bodies.floors())
 
     def _volume(self, iri: str) -> float:
         """Return the volume of the box of an object in m³, infinite without one."""
@@ -148,7 +175,10 @@ class ThingAnswers(Answers):
         verb = "are" if len(things.iris) > 1 else "is"
         named = join_few([the_thing(facts.kind(anchor), facts.label(anchor)) for anchor in dict.fromkeys(anchors)])
         sentence = begin_sentence(f"{things.text} {verb} {PREPOSITIONS[first]} {named}{things.suffix}.")
-        return InterpretedAnswer(f"what {things.text} is on", self._things.located(anchors), sentence=sentence)
+        paths = tuple(map(facts.path, dict.fromkeys(anchors)))
+        return InterpretedAnswer(
+            f"what {things.text} is on", self._things.located(anchors), sentence=sentence, places=paths
+        )
 
     def _parts_of(self, kind: str, thing: str) -> InterpretedAnswer:
         wholes, what = self._nouns.find(thing), self._nouns.find(kind)

@@ -180,8 +180,11 @@ class ComposedAnswers:
             )
         yes = quantity.holds(len(kept), len(subjects))
         named = join_few([self._facts.label(iri) for iri in kept or subjects])
-        share = f"{len(kept)} of {count_phrase(len(subjects), singular(group.text))} ({named})"
-        sentence = yes_or_no(yes, f"{share if subjects else group.things.absence}.")
+        if len(subjects) == 1:
+            said = f"{named} {'is' if kept else 'is not'}"
+        else:
+            said = f"{len(kept)} of {count_phrase(len(subjects), singular(group.text))} ({named})"
+        sentence = f"{'Yes' if yes else 'No'}: {said if subjects else group.things.absence}."
         return InterpretedAnswer(f"whether {group.text} are so", self._facts.table(kept), yes, sentence=sentence)
 
     def _more(self, reading: Reading) -> InterpretedAnswer:

@@ -32,6 +32,10 @@ __all__ = [
 ]
 
 
+SAME = 0.005
+"""Share of a measure by which two things must differ to be unequal."""
+
+
 class Measure(NamedTuple):
     """A measure of bodies."""
 
@@ -40,12 +44,30 @@ class Measure(NamedTuple):
     of: Callable[[Body], float | None]
 
 
-def _side(body: Body, axis: int | None) -> float | None:
-    """Return the height of a box, or the longer (1) or shorter (0) of its level sides, in metres."""
-    if body.lower is None or body.upper is None:
+def _height(body: Body) -> float | None:
+    """Return the height of a box in metres."""
+    return None if body.lower is None or body.upper is None else float(body.upper[2] - body.lower[2])
+
+
+def _level_sides(body: Body) -> tuple[float, float] | None:
+    """Return the shorter and the longer level side in metres: along the body's own axes if one of them is vertical.
+
+    A forklift that stands oblique in the hall is as wide as it is.
+    """
+    height = _height(body)
+    if height is None or body.lower is None or body.upper is None:
         return None
-    size = body.upper - body.lower
-    return float(size[2]) if axis is None else float(sorted(size[:2])[axis])
+    sides = sorted((body.upper - body.lower)[:2].tolist())
+    if body.extents is not None:
+        own = sorted(body.extents, key=lambda extent: abs(extent - height))
+        if abs(own[0] - height) <= SAME * height:
+            sides = sorted(own[1:])
+    return sides[0], sides[1]
+
+
+def _level_side(body: Body, axis: int) -> float | None:
+    sides = _level_sides(body)
+    return None if sides is None else sides[axis]
 
 
 def _mean_side(body: Body) -> float | None:
@@ -55,10 +77,8 @@ def _mean_side(body: Body) -> float | None:
 
 def _area(body: Body) -> float | None:
     """Return the area of the footprint of a box, in m²."""
-    if body.lower is None or body.upper is None:
-        return None
-    width, depth, _ = body.upper - body.lower
-    return float(width * depth)
+    sides = _level_sides(body)
+    return None if sides is None else sides[0] * sides[1]
 
 
 def _bottom(body: Body) -> float | None:
@@ -69,9 +89,9 @@ def _top(body: Body) -> float | None:
     return None if body.upper is None else float(body.upper[2])
 
 
-HEIGHT = Measure("tall", "m", lambda body: _side(body, None))
-WIDTH = Measure("wide", "m", lambda body: _side(body, 1))
-DEPTH = Measure("deep", "m", lambda body: _side(body, 0))
+HEIGHT = Measure("tall", "m", _height)
+WIDTH = Measure("wide", "m", lambda body: _level_side(body, 1))
+DEPTH = Measure("deep", "m", lambda body: _level_side(body, 0))
 LENGTH = Measure("long", "m", lambda body: None if body.extents is None else body.extents[2])
 THICKNESS = Measure("thick", "m", lambda body: None if body.extents is None else body.extents[0])
 MASS = Measure("heavy", "kg", lambda body: body.mass)
@@ -105,8 +125,6 @@ MEASURES = {word: _BY_NAME[name] for word, name in word_map("query", "measure_wo
 SUPERLATIVES = _read_signed(word_map("query", "superlatives"))
 COMPARED = _read_signed(word_map("query", "comparatives"))
 _FLOORS = word_set("query", "floors")
-SAME = 0.005
-"""Share of a measure by which two things must differ to be unequal."""
 
 
 def nearest_of(gaps: Mapping[str, float], sign: int = 1) -> list[str]:
@@ -159,10 +177,11 @@ class BodyMeasures:
     @cached_property
     def floor_level(self) -> float:
         """The height of the lowest floor, or of the lowest thing, in metres."""
-        tops = [body.upper[2] for iri in self._floors() if (body := self._facts.body(iri)).upper is not None]
+        tops = [body.upper[2] for iri in self.floors() if (body := self._facts.body(iri)).upper is not None]
         return float(min(tops)) if tops else float(np.nanmin(self._facts.bodies.table.lower[:, 2]))
 
-    def _floors(self) -> list[str]:
+    def floors(self) -> list[str]:
+        """Return the things that are floors."""
         facts = self._facts
         # A floor slab is a floor by its class.
         return [
