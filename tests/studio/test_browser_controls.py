@@ -174,3 +174,55 @@ def test_reviewers_who_disagree_are_shown_settled_and_counted(browser: Browser, 
         expect(page.locator(".drawer-body")).to_contain_text("Agreement of Ann and Bob")
         expect(page.locator(".drawer-body")).to_contain_text("0 of 1")
         close_page(page)
+
+
+def ticks(page: Page) -> list[bool]:
+    """Return whether each member of the group is ticked."""
+    return [box.is_checked() for box in page.locator(".member input").all()]
+
+
+def test_after_a_click_the_keys_act_on_the_review(browser: Browser, stage: Path, tmp_path: Path) -> None:
+    with running_studio(stage, tmp_path / "project") as client:
+        page = open_page(browser, client)
+        saved = page.locator(".status-bar .saving")
+
+        def last_state(name: str) -> str:
+            expect(saved).to_have_text("Saved")
+            scene, states = client.ask("api/scene").json(), client.ask("api/states").json()["states"]
+            state: str = states[scene["objects"]["path"].index(f"/Kitchen/{name}")]["state"]
+            return state
+
+        # A checkbox: Space ticks the member that the arrows have moved to.
+        page.locator(".queue-row", has_text="cup").first.click()
+        page.locator(".member input").first.click()
+        assert ticks(page) == [False, True]
+        page.keyboard.press("ArrowRight")
+        page.keyboard.press("Space")
+        assert ticks(page) == [False, False]
+        expect(page.locator(".member.focused")).to_have_attribute("title", "/Kitchen/Cup_2")
+        page.keyboard.press("Space")
+
+        # A row of the tree: Enter confirms, until arrows move on in the tree.
+        page.locator(".tree-row", has_text="Table").click()
+        page.keyboard.press("Enter")
+        expect(page.locator(".status-bar")).to_contain_text("1 of 5 decided")
+        assert last_state("Table") == "confirmed"
+        page.keyboard.press("ArrowDown")
+        page.keyboard.press("Enter")
+        expect(page.locator(".tree-row[aria-selected=true]")).to_contain_text("<img")
+        expect(page.locator(".status-bar")).to_contain_text("1 of 5 decided")
+
+        # A button: Enter confirms the next group.
+        page.locator(".queue-row", has_text="cup").first.click()
+        page.locator(".actions button", has_text="No class fits").click()
+        expect(page.locator(".status-bar")).to_contain_text("3 of 5 decided")
+        page.locator(".queue-row", has_text="floor").first.click()
+        page.locator(".tabs button", has_text="Facets").click()
+        page.keyboard.press("Enter")
+        expect(page.locator(".status-bar")).to_contain_text("4 of 5 decided")
+        assert last_state("Floor") == "confirmed"
+        # With the keyboard alone, a button keeps its Enter.
+        page.locator(".actions button", has_text="Skip").focus()
+        page.keyboard.press("Enter")
+        expect(page.locator(".status-bar")).to_contain_text("4 of 5 decided")
+        close_page(page)

@@ -10,14 +10,15 @@ function isTextField(target: EventTarget | null): boolean {
   return target instanceof HTMLTextAreaElement || target instanceof HTMLSelectElement;
 }
 
-/** Returns whether a key belongs to the focused control: Enter and Space on a button, arrows on a slider. */
+/**
+ * Returns whether a key belongs to the focused control: Enter and Space on a button, arrows on a slider and in a list,
+ * which prevents the default of the other keys that it takes.
+ */
 function isOfControl(target: EventTarget | null, key: string): boolean {
   if (target instanceof HTMLElement && target.matches("button, a, summary")) return key === "Enter" || key === "Space";
   if (target instanceof HTMLInputElement && target.type === "range") return key.startsWith("Arrow");
   if (target instanceof HTMLInputElement) return key === "Space";
-  return (
-    target instanceof HTMLElement && target.closest("[data-own-keys]") !== null && /^(Arrow|Enter|Space)/.test(key)
-  );
+  return target instanceof HTMLElement && target.closest("[data-own-keys]") !== null && key.startsWith("Arrow");
 }
 
 export function handleKey(event: KeyboardEvent, store: Store, view: ViewCommands): void {

@@ -2,6 +2,7 @@
 
 import { useEffect, useMemo, useRef } from "preact/hooks";
 import type { ViewCommands } from "../keys/bindings";
+import { giveFocusBack } from "../keys/focus";
 import { handleKey } from "../keys/keyboard";
 import type { Store } from "../state/store";
 import type { FirstPicture } from "../viewer/firstPicture";
@@ -40,6 +41,7 @@ export function App({ store, firstPicture }: { store: Store; firstPicture: First
     addEventListener("keydown", onKey);
     return () => removeEventListener("keydown", onKey);
   }, [store, commands]);
+  useEffect(giveFocusBack, []);
   return (
     <Thumbnails.Provider value={thumbnails}>
       <div class={store.isDrawerOpen.value ? "app" : "app drawer-closed"}>

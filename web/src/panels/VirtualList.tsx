@@ -16,9 +16,18 @@ interface Props<T> {
 }
 
 const SPARE = 6;
+/** Keys that move in a list. */
+const MOVES = /^(Arrow|Home|End)/;
 
 export function VirtualList<T>({ rows, rowHeight, label, role, current, focus, children }: Props<T>) {
   const host = useRef<HTMLDivElement>(null);
+  // A click has done what Enter does to a row: until arrows move on, Enter and Space belong to the review.
+  const isClicked = useRef(false);
+  const onKeyDown = (event: KeyboardEvent) => {
+    if (isClicked.current && (event.key === "Enter" || event.key === " ")) return;
+    if (MOVES.test(event.key)) isClicked.current = false;
+    focus?.onKeyDown(event);
+  };
   const [top, setTop] = useState(0);
   const [height, setHeight] = useState(400);
   useEffect(() => {
@@ -50,8 +59,14 @@ export function VirtualList<T>({ rows, rowHeight, label, role, current, focus, c
             tabIndex: 0,
             "data-own-keys": true,
             "aria-activedescendant": focus.active,
-            onKeyDown: focus.onKeyDown,
+            onKeyDown,
             onBlur: focus.onBlur,
+            onFocusOut: () => {
+              isClicked.current = false;
+            },
+            onClickCapture: () => {
+              isClicked.current = true;
+            },
           })}
       onScroll={(event) => setTop(event.currentTarget.scrollTop)}
     >
