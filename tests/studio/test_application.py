@@ -242,6 +242,7 @@ def test_reviewers_see_each_other(studio: Client):
         lines = [stream.readline().decode() for _ in range(3)]
     change = json.loads(lines[2].removeprefix("data: "))
     assert (change["reviewer"], change["page"], change["version"]) == ("Bob", "p1", 1)
+    assert (change["can_undo"], change["can_redo"]) == (True, False)
     assert change["states"][0]["state"] == "confirmed"
     # Ann has not seen it: a conflict, until somebody decides who has.
     assert decide(studio, [TABLE], "no-class", "Ann", seen=0)["states"][0]["is_conflict"]
@@ -331,3 +332,15 @@ def test_other_pages_hear_that_objects_were_grounded_again(studio: Client):
         threading.Timer(0.2, lambda: studio.ask("api/reground", {"reviewer": "Ann", "page": "p"})).start()
         lines = [stream.readline().decode() for _ in range(3)]
     assert lines[1:] == ["event: suggestions\n", 'data: {"reviewer": "Ann", "page": "p"}\n']
+
+
+def test_pages_hear_that_the_graph_was_written(studio: Client):
+    decide(studio, [TABLE], "choose", **{"class": class_index(studio, "Cupboard")})
+    request = urllib.request.Request(f"{studio.address}api/events?since=1")
+    request.add_header("Authorization", f"Bearer {KEY}")
+    with urllib.request.urlopen(request, timeout=30) as stream:
+        assert stream.readline() == b": connected\n"
+        lines = [stream.readline().decode() for _ in range(3)]
+    assert lines[1] == "event: outputs\n"
+    assert json.loads(lines[2].removeprefix("data: ")) == studio.ask("api/states").json()["outputs"]
+    assert "Cupboard" in studio.ask(f"api/object/{TABLE}").json()["turtle"]

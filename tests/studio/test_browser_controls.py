@@ -226,3 +226,39 @@ def test_after_a_click_the_keys_act_on_the_review(browser: Browser, stage: Path,
         page.keyboard.press("Enter")
         expect(page.locator(".status-bar")).to_contain_text("4 of 5 decided")
         close_page(page)
+
+
+def test_what_the_page_knows_follows_the_server(browser: Browser, stage: Path, tmp_path: Path) -> None:
+    with running_studio(stage, tmp_path / "project") as client:
+        page, other = open_page(browser, client, "Ann"), open_page(browser, client, "Ann")
+        undo = other.get_by_role("button", name="Undo")
+        expect(undo).to_be_disabled()
+        page.locator(".tree-row", has_text="Zxqv").click()
+        summary = page.locator("summary", has_text="Statements")
+        # The first graph is written.
+        summary.click(timeout=20_000)
+        statements = page.locator(".object-panel pre")
+        expect(statements).not_to_contain_text("Cupboard")
+        page.keyboard.press("/")
+        page.keyboard.type("cupboard")
+        page.keyboard.press("Enter")
+        # The same reviewer can undo in both tabs.
+        expect(undo).to_be_enabled()
+        page.locator(".tree-row", has_text="Zxqv").click()
+        expect(statements).to_contain_text("Cupboard", timeout=20_000)
+        close_page(page)
+        close_page(other)
+
+
+def test_each_tab_keeps_its_reviewer(browser: Browser, stage: Path, tmp_path: Path) -> None:
+    with running_studio(stage, tmp_path / "project") as client:
+        page = open_page(browser, client, "Bob")
+        other = page.context.new_page()
+        other.goto(f"{client.address}#token={KEY}")
+        # The name of the browser is that with which a tab begins.
+        expect(other.get_by_label("Reviewer")).to_have_value("Bob")
+        other.get_by_label("Reviewer").fill("Cleo")
+        other.keyboard.press("Enter")
+        page.reload()
+        expect(page.get_by_label("Reviewer")).to_have_value("Bob")
+        close_page(page)

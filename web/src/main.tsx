@@ -3,7 +3,7 @@
 import { render } from "preact";
 import { ApiFailure, storeKey } from "./api/client";
 import { listen } from "./api/events";
-import type { ChangeEvent, SuggestionsEvent } from "./api/types";
+import type { ChangeEvent, Outputs, SuggestionsEvent } from "./api/types";
 import { App } from "./panels/App";
 import { KeyForm } from "./panels/KeyForm";
 import type { Start } from "./start";
@@ -24,18 +24,16 @@ async function show({ client, scene, states, picture }: Start, open: Open): Prom
   host.replaceChildren();
   try {
     const firstPicture = await picture;
-    const store = new Store(client, await scene, await states, localStorage);
+    const store = new Store(client, await scene, await states, { tab: sessionStorage, browser: localStorage });
     document.title = `${store.model.data.title} · usd2kg studio`;
     startWithComparison(store);
     render(<App store={store} firstPicture={firstPicture} />, host);
     void store.loadQueue();
     const handlers = {
       onChange: (change: ChangeEvent) => store.receive(change),
+      onOutputs: (outputs: Outputs) => store.receiveOutputs(outputs),
       onSuggestions: (event: SuggestionsEvent) => store.receiveSuggestions(event),
-      onLink: (isConnected: boolean) => {
-        if (!isConnected) store.saving.value = "offline";
-        else if (store.saving.value === "offline") void store.reload();
-      },
+      onLink: (isConnected: boolean) => store.setConnected(isConnected),
       onDenied: () => askForKey("The studio was restarted with another key.", open),
     };
     void listen(client, () => store.version.value, handlers, new AbortController().signal);

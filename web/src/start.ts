@@ -1,6 +1,6 @@
 /** Starts the page: asks for the scene, and shows its boxes while the rest of the page is loading. */
 
-import { readKey } from "./api/client";
+import { keyOfAddress, readKey } from "./api/client";
 import { type Opening, openScene } from "./api/opening";
 import { FirstPicture } from "./viewer/firstPicture";
 
@@ -10,7 +10,7 @@ export interface Start extends Opening {
 }
 
 function open(key: string): Start {
-  const opening = openScene(key, localStorage);
+  const opening = openScene(key, { tab: sessionStorage, browser: localStorage });
   return { ...opening, picture: opening.scene.then(showPicture, () => null) };
 }
 
@@ -20,7 +20,14 @@ async function showPicture(scene: Awaited<Opening["scene"]>): Promise<FirstPictu
   return picture;
 }
 
-const key = readKey(location, sessionStorage, (url) => history.replaceState(null, "", url));
+const findKey = () => readKey(location, sessionStorage, (url) => history.replaceState(null, "", url));
+// The address of a studio that was started again differs in the fragment alone, so that the browser loads nothing.
+addEventListener("hashchange", () => {
+  if (keyOfAddress(location) === null) return;
+  findKey();
+  location.reload();
+});
+const key = findKey();
 const first = key === null ? null : open(key);
 const { run } = await import("./main");
 run(first, open);

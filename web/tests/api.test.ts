@@ -82,6 +82,7 @@ describe("event stream", () => {
     };
     let version = 0;
     const handlers = {
+      onOutputs: () => undefined,
       onSuggestions: () => undefined,
       onChange: (change: ChangeEvent) => {
         version = change.version;
@@ -99,6 +100,7 @@ describe("event stream", () => {
     const send: typeof fetch = async () => new Response('{"error": "wrong key"}', { status: 401 });
     const handlers = {
       onChange: () => undefined,
+      onOutputs: () => undefined,
       onSuggestions: () => undefined,
       onLink: (is: boolean) => void links.push(is),
       onDenied: denied,

@@ -1,6 +1,6 @@
 import { describe, expect, it, vi } from "vitest";
 import { findBinding } from "../src/keys/bindings";
-import { accuracyText, auditText, isAuditing } from "../src/state/audit";
+import { accuracyText, auditText, isAuditing, toggleAudit } from "../src/state/audit";
 import { makeStore, QUEUE, reply, VIEW as view } from "./fakeStore";
 
 describe("audit", () => {
@@ -28,6 +28,17 @@ describe("audit", () => {
     store.goTo("/K/wall");
     await store.decide([3], "confirm");
     expect(sent.at(-1)).not.toHaveProperty("audit");
+  });
+
+  it("hides confidences in colours and filters", () => {
+    const store = makeStore(vi.fn());
+    store.colorMode.value = "confidence";
+    store.filters.value = { ...store.filters.value, confidence: [0.95, 1] };
+    expect([store.shownColors.value, store.shown.value]).toEqual(["confidence", new Set([0])]);
+    toggleAudit(store);
+    expect([store.shownColors.value, store.shown.value]).toEqual(["class", null]);
+    toggleAudit(store);
+    expect([store.shownColors.value, store.shown.value?.size]).toEqual(["confidence", 1]);
   });
 
   it("is described with its size and its interval", () => {

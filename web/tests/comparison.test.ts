@@ -12,6 +12,7 @@ import {
 import { NO_FILTERS } from "../src/state/filters";
 import { Store } from "../src/state/store";
 import { ghostEdges } from "../src/viewer/ghosts";
+import { makeNames } from "./fakeStore";
 import { makeScene, makeStates } from "./scene";
 
 function makeChange(given: Partial<SceneChange>): SceneChange {
@@ -65,8 +66,7 @@ function makeStore(): Store {
     blob: async () => new Blob(),
     stream: async () => new ReadableStream(),
   };
-  const storage = { getItem: () => null, setItem: () => undefined };
-  return new Store(client, { ...makeScene(), has_comparison: true }, makeStates(), storage);
+  return new Store(client, { ...makeScene(), has_comparison: true }, makeStates(), makeNames());
 }
 
 async function loaded(store: Store) {
@@ -80,15 +80,14 @@ describe("a comparison", () => {
     const store = makeStore();
     startWithComparison(store);
     expect([store.drawer.value, store.colorMode.value]).toEqual(["compare", "change"]);
-    const other = new Store(store.client, makeScene(), makeStates(), { getItem: () => null, setItem: () => undefined });
+    const other = new Store(store.client, makeScene(), makeStates(), makeNames());
     startWithComparison(other);
     expect([other.drawer.value, other.colorMode.value]).toEqual(["review", "material"]);
   });
 
   it("leaves a scene without colours of its own coloured by class", () => {
     const { client } = makeStore();
-    const storage = { getItem: () => null, setItem: () => undefined };
-    const plain = new Store(client, { ...makeScene(), has_colors: false }, makeStates(), storage);
+    const plain = new Store(client, { ...makeScene(), has_colors: false }, makeStates(), makeNames());
     startWithComparison(plain);
     expect(plain.colorMode.value).toBe("class");
   });

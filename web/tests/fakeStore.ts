@@ -3,6 +3,7 @@
 import type { Client } from "../src/api/client";
 import type { DecisionReply, ObjectPage, Queue } from "../src/api/types";
 import type { ViewCommands } from "../src/keys/bindings";
+import type { NameStorage } from "../src/state/reviewer";
 import { Store } from "../src/state/store";
 import { makeScene, makeState, makeStates } from "./scene";
 
@@ -67,12 +68,18 @@ export function makeStore(post: Client["post"]): Store {
     blob: async () => new Blob(),
     stream: async () => new ReadableStream(),
   };
+  return new Store(client, makeScene(), makeStates(), makeNames());
+}
+
+/** A storage in memory. */
+export function makeStorage(): Pick<Storage, "getItem" | "setItem"> {
   const kept = new Map<string, string>();
-  const storage = {
-    getItem: (name: string) => kept.get(name) ?? null,
-    setItem: (n: string, v: string) => void kept.set(n, v),
-  };
-  return new Store(client, makeScene(), makeStates(), storage);
+  return { getItem: (name) => kept.get(name) ?? null, setItem: (name, value) => void kept.set(name, value) };
+}
+
+/** The names that a new tab of a new browser knows. */
+export function makeNames(): NameStorage {
+  return { tab: makeStorage(), browser: makeStorage() };
 }
 
 export function reply(objects: number[], state: Partial<ReturnType<typeof makeState>>): DecisionReply {

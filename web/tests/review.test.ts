@@ -8,7 +8,7 @@ import { applyStates, durationText, isOpen, predictStates, reasonsForNoClass, su
 import { Store } from "../src/state/store";
 import { occluders } from "../src/viewer/appearance";
 import { cutAway, findHolders } from "../src/viewer/cutaway";
-import { makeStore, QUEUE, reply, VIEW as view } from "./fakeStore";
+import { makeNames, makeStore, QUEUE, reply, VIEW as view } from "./fakeStore";
 import { makeScene, makeState, makeStates } from "./scene";
 
 describe("states", () => {
@@ -89,14 +89,14 @@ describe("store", () => {
     await store.loadQueue();
     await store.decide([1], "confirm");
     expect([store.states.value[1]?.state, store.saving.value]).toEqual(["suggested", "failed"]);
-    expect(store.notices.value.at(-1)?.text).toBe("no space left");
+    expect(store.notices.value.at(-1)?.text).toBe("Not saved: Cup_1 (no space left)");
   });
 
   it("does not confirm an object without a suggestion", async () => {
     const post = vi.fn();
     const store = makeStore(post);
     await store.loadQueue();
-    const change = { version: 1, reviewer: "", page: "p", message: "" };
+    const change = { version: 1, reviewer: "", page: "p", message: "", can_undo: false, can_redo: false };
     store.receive({ ...change, states: [makeState(3, { state: "failed", suggested: -1, class: -1 })] });
     store.goTo("/K/wall");
     findBinding("Enter")?.run(store, view, "Enter");
@@ -132,6 +132,8 @@ describe("store", () => {
       reviewer: "Bob",
       page: "p",
       message: "confirm",
+      can_undo: true,
+      can_redo: false,
       states: [makeState(0, { state: "confirmed" })],
     };
     store.receive(change);
@@ -145,6 +147,137 @@ describe("store", () => {
     store.filters.value = { ...store.filters.value, text: "wall" };
     expect(store.groups.value.map((group) => group.title)).toEqual(["wall"]);
     expect(store.group.value?.title).toBe("wall");
+  });
+
+  it("decides about the members that pass the filters only", async () => {
+    const sent: unknown[] = [];
+    const store = makeStore(async <T>(_: string, body: unknown) => {
+      sent.push((body as { objects: number[] }).objects);
+      return reply([1], { state: "confirmed" }) as T;
+    });
+    await store.loadQueue();
+    store.goTo("/K/Table/Cup_1");
+    findBinding("ArrowRight")?.run(store, view, "ArrowRight");
+    store.filters.value = { ...store.filters.value, text: "cup_1" };
+    expect([store.ticked.value, store.hiddenMembers.value, store.member.value]).toEqual([[1], 1, 0]);
+    findBinding("Enter")?.run(store, view, "Enter");
+    await vi.waitFor(() => expect(sent).toEqual([[1]]));
+    // With no group left under the filter, keys decide about nothing.
+    store.filters.value = { ...store.filters.value, text: "no such thing" };
+    findBinding("Enter")?.run(store, view, "Enter");
+    expect([store.targets.value, store.openGroups.value.length]).toEqual([[], 2]);
+  });
+
+  it("selects the group as it is filtered, until something else is selected", async () => {
+    const store = makeStore(vi.fn());
+    await store.loadQueue();
+    store.goTo("/K/Table/Cup_1");
+    store.filters.value = { ...store.filters.value, text: "cup_2" };
+    expect(store.selection.value).toEqual([2]);
+    store.filters.value = { ...store.filters.value, text: "" };
+    expect(store.selection.value).toEqual([2, 1]);
+    store.select([0]);
+    store.filters.value = { ...store.filters.value, text: "cup_2" };
+    expect(store.selection.value).toEqual([0]);
+  });
+
+  it("isolates what the queue goes to", async () => {
+    const store = makeStore(vi.fn());
+    await store.loadQueue();
+    store.goTo("/K/Table/Cup_1");
+    findBinding("I")?.run(store, view, "I");
+    store.select([1]);
+    expect(store.isolated.value).toEqual(new Set([2, 1]));
+    store.step(1);
+    expect([store.isolated.value, store.lookAt.value]).toEqual([new Set([3]), [3]]);
+    findBinding("I")?.run(store, view, "I");
+    store.step(-1);
+    expect(store.isolated.value).toBeNull();
+  });
+
+  it("lets both pages of a reviewer undo, not those of others", () => {
+    const store = makeStore(vi.fn());
+    const change = { page: "other", message: "", states: [], can_redo: false };
+    store.receive({ ...change, version: 1, reviewer: "Bob", can_undo: true });
+    expect(store.canUndo.value).toBe(false);
+    store.receive({ ...change, version: 2, reviewer: "Ann", can_undo: true });
+    expect(store.canUndo.value).toBe(true);
+    store.receive({ ...change, version: 3, reviewer: "Ann", can_undo: false, can_redo: true });
+    expect([store.canUndo.value, store.canRedo.value]).toEqual([false, true]);
+  });
+});
+
+describe("a server that does not answer", () => {
+  const gone = new ApiFailure("no answer", 0);
+
+  /** A store whose server can be stopped, and started with the states on its disk. */
+  function stoppable() {
+    const server = { isGone: false, states: makeStates() };
+    const answer = <T>(found: unknown) => (server.isGone ? Promise.reject(gone) : Promise.resolve(found as T));
+    const client = {
+      ...makeStore(vi.fn()).client,
+      get: <T>(path: string) => answer<T>(path.startsWith("states") ? server.states : QUEUE),
+      post: <T>() => answer<T>(reply([2, 1], { state: "confirmed" })),
+    };
+    return { server, store: new Store(client, makeScene(), makeStates(), makeNames()) };
+  }
+  const texts = (store: Store) => store.notices.value.map(({ text }) => text);
+
+  it("leaves the group and its ticks as they were, and is named in a message", async () => {
+    const { server, store } = stoppable();
+    await store.loadQueue();
+    store.goTo("/K/Table/Cup_1");
+    store.toggleMember(1);
+    server.isGone = true;
+    await store.decide(store.targets.value, "confirm");
+    expect([store.groupId.value, store.ticked.value, store.saving.value]).toEqual(["/K/Table/Cup_1", [2], "offline"]);
+    expect(store.groups.value).toEqual(QUEUE.groups);
+    expect(texts(store)).toEqual(["Not saved: Cup_2 (no answer)"]);
+    // The next key may have been meant for the next group.
+    await store.decide(store.targets.value, "confirm");
+    expect(texts(store).at(-1)).toBe(
+      "The decision about this group was not saved. Press the key again to decide about this one.",
+    );
+  });
+
+  it("names what it has not saved once it answers, and says so until the next decision", async () => {
+    const { server, store } = stoppable();
+    await store.loadQueue();
+    server.isGone = true;
+    await Promise.all([store.decide([2, 1], "confirm"), store.decide([3], "no-class")]);
+    expect(store.groups.value).toEqual(QUEUE.groups);
+    server.isGone = false;
+    store.setConnected(true);
+    await vi.waitFor(() => expect(store.saving.value).toBe("failed"));
+    expect(texts(store).at(-1)).toBe("Not saved while the server did not answer: Cup_2 and 1 more; wall");
+    expect(store.connections.value).toBe(1);
+    // The first key after the way back is held back.
+    await store.decide([0], "confirm");
+    expect(store.saving.value).toBe("failed");
+    await store.decide([0], "confirm");
+    expect(store.saving.value).toBe("saved");
+  });
+
+  it("has saved a decision whose answer alone was lost", async () => {
+    const { server, store } = stoppable();
+    await store.loadQueue();
+    server.isGone = true;
+    await store.decide([0], "confirm");
+    const states = makeStates().states.map((state) =>
+      state.object === 0 ? makeState(0, { state: "confirmed" }) : state,
+    );
+    Object.assign(server, { isGone: false, states: { ...makeStates(), version: 1, states } });
+    store.setConnected(true);
+    await vi.waitFor(() => expect(store.saving.value).toBe("saved"));
+    expect([store.states.value[0]?.state, texts(store).length]).toEqual(["confirmed", 1]);
+  });
+
+  it("is not taken for one that has grounded again", async () => {
+    const { server, store } = stoppable();
+    server.isGone = true;
+    store.setConnected(false);
+    await store.groundAgain();
+    expect([store.saving.value, texts(store)]).toEqual(["offline", ["no answer"]]);
   });
 });
 
@@ -194,6 +327,8 @@ describe("fast and concurrent reviewers", () => {
     page,
     reviewer: "Bob",
     message: "decides",
+    can_undo: true,
+    can_redo: false,
     states: [makeState(object, given)],
   });
 
@@ -257,7 +392,7 @@ describe("fast and concurrent reviewers", () => {
     const { sent, post } = gated();
     let queue = QUEUE;
     const client = { ...makeStore(post).client, get: async <T>() => queue as T, post };
-    const store = new Store(client, makeScene(), makeStates(), { getItem: () => null, setItem: () => undefined });
+    const store = new Store(client, makeScene(), makeStates(), makeNames());
     await store.loadQueue();
     store.goTo("/K/Table/Cup_1");
     queue = { ...QUEUE, groups: QUEUE.groups.slice(1) };
@@ -277,7 +412,7 @@ describe("fast and concurrent reviewers", () => {
       get: <T>() => new Promise<T>((resolve) => answers.push(() => resolve(QUEUE as T))),
       post: async <T>() => ({ ...reply([version === 0 ? 1 : 3], {}), version: ++version }) as T,
     };
-    const store = new Store(client, makeScene(), makeStates(), { getItem: () => null, setItem: () => undefined });
+    const store = new Store(client, makeScene(), makeStates(), makeNames());
     const undone = Promise.all([store.undo(), store.undo()]);
     await vi.waitFor(() => expect(answers).toHaveLength(2));
     answers[1]?.();
@@ -372,6 +507,27 @@ describe("keys", () => {
   it("chooses the superclass", () => {
     const store = makeStore(async <T>() => reply([], {}) as T);
     expect([superclass(store.model, 2), superclass(store.model, 0)]).toEqual([0, -1]);
+  });
+
+  it("chooses the superclass that all objects have in common, or says why there is none", async () => {
+    const sent: unknown[] = [];
+    const store = makeStore(async <T>(_: string, body: unknown) => {
+      sent.push(body);
+      return reply([], {}) as T;
+    });
+    const change = { version: 1, reviewer: "", page: "p", message: "", can_undo: false, can_redo: false };
+    store.receive({ ...change, states: [makeState(1, { class: -1, suggested: 1 }), makeState(2, { class: 3 })] });
+    const press = (...objects: number[]) => {
+      store.select(objects);
+      findBinding("U")?.run(store, view, "U");
+      return store.notices.value.at(-1)?.text;
+    };
+    // A table, a cup without a decided class, a vessel: all are artifacts.
+    press(0, 1, 2);
+    await vi.waitFor(() => expect(sent).toMatchObject([{ objects: [0, 1, 2], class: 0 }]));
+    expect(press(0, 3)).toBe("The 2 objects have several superclasses. Choose a class with /");
+    expect(press(3)).toBe("The class has no superclass. Choose a class with /");
+    expect(sent).toHaveLength(1);
   });
 
   it("closes one thing at a time with Escape", () => {

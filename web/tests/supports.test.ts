@@ -2,7 +2,7 @@ import { describe, expect, it, vi } from "vitest";
 import type { RelationList } from "../src/api/types";
 import { Store } from "../src/state/store";
 import { followSupports } from "../src/state/supports";
-import { makeStore } from "./fakeStore";
+import { makeNames, makeStore } from "./fakeStore";
 import { makeScene, makeStates } from "./scene";
 
 function setUp() {
@@ -16,7 +16,7 @@ function setUp() {
     return new Promise<T>((resolve) => answers.push(() => resolve(list as T)));
   };
   const client = { ...makeStore(vi.fn()).client, get };
-  const store = new Store(client, makeScene(), makeStates(), { getItem: () => null, setItem: () => undefined });
+  const store = new Store(client, makeScene(), makeStates(), makeNames());
   return { store, asked, answers };
 }
 

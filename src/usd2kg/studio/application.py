@@ -117,7 +117,7 @@ class _Api:
         self._events = LiveEvents()
         self._pictures = Pictures(session, self._indices)
         self._questions = Questions(session, self._indices)
-        self._outputs = OutputFiles(session)
+        self._outputs = OutputFiles(session, lambda: self._events.publish_soon("outputs", self._outputs_json()))
         self._comparison = None if other is None else Comparison(session, self._indices, other)
         # Questions and graphs may take seconds, on the threads of `asyncio.to_thread`; no decision waits for them.
         self._review_threads = ThreadPoolExecutor(_REVIEW_THREADS, "usd2kg-review")
@@ -182,8 +182,11 @@ class _Api:
             "states": [state_json(state, self._indices) for state in states],
             "can_undo": self._session.review.can_undo(reviewer),
             "can_redo": self._session.review.can_redo(reviewer),
-            "outputs": {"folder": str(self._outputs.folder), "problem": self._outputs.problem},
+            "outputs": self._outputs_json(),
         }
+
+    def _outputs_json(self) -> dict[str, str]:
+        return {"folder": str(self._outputs.folder), "problem": self._outputs.problem}
 
     async def _object(self, request: Request) -> Response:
         index = self._index(request)
@@ -294,7 +297,7 @@ class _Api:
         """Tell all pages of a change, and return the answer to the page that made it."""
         reviewer = _reviewer(body)
         reply = {**self._reply(changed, reviewer), "message": message}
-        change = {key: reply[key] for key in ("version", "states", "message")}
+        change = {key: reply[key] for key in ("version", "states", "message", "can_undo", "can_redo")}
         self._events.publish("change", {**change, "reviewer": reviewer, "page": field(body, "page", str, "")})
         self._outputs.notify()
         return JSONResponse(reply)
@@ -313,6 +316,8 @@ class _Api:
                     "reviewer": "",
                     "page": "",
                     "message": "",
+                    "can_undo": False,
+                    "can_redo": False,
                     "states": [state_json(state, self._indices) for state in self._session.states()],
                 },
             )

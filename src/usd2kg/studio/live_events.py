@@ -18,10 +18,12 @@ Listener = asyncio.Queue[str | None]
 
 
 class LiveEvents:
-    """The pages that listen; used from one event loop."""
+    """The pages that listen; used from one event loop, except `publish_soon`."""
 
     def __init__(self) -> None:
         self._listeners: set[Listener] = set()
+        self._loop: asyncio.AbstractEventLoop | None = None
+        """That of the listeners; None before the first."""
 
     def publish(self, name: str, data: dict[str, Any]) -> None:
         """Send an event to all pages."""
@@ -34,6 +36,11 @@ class LiveEvents:
                 _end(listener)
                 self._listeners.discard(listener)
 
+    def publish_soon(self, name: str, data: dict[str, Any]) -> None:
+        """Send an event to all pages, from another thread than that of the event loop, which must still run."""
+        if self._loop is not None:
+            self._loop.call_soon_threadsafe(self.publish, name, data)
+
     @staticmethod
     def format(name: str, data: dict[str, Any]) -> str:
         """Return an event as text of the stream."""
@@ -41,6 +48,7 @@ class LiveEvents:
 
     def subscribe(self) -> Listener:
         """Return a listener that receives all events from now on; `listen` reads it."""
+        self._loop = asyncio.get_running_loop()
         listener: Listener = asyncio.Queue(_WAITING)
         self._listeners.add(listener)
         return listener

@@ -21,8 +21,10 @@ logger = logging.getLogger(__name__)
 class OutputFiles:
     """Writes the files in a thread, a moment after the last of several decisions."""
 
-    def __init__(self, session: StudioSession) -> None:
+    def __init__(self, session: StudioSession, when_written: Callable[[], None]) -> None:
+        """`when_written` is called in the thread after the files were written."""
         self._session = session
+        self._when_written = when_written
         self._changed = threading.Event()
         self._is_closing = False
         self._written: tuple[int, Grounding] | None = None
@@ -87,6 +89,7 @@ class OutputFiles:
                 self.problem = str(error)
                 logger.warning("%s", error)
         self._written = current
+        self._when_written()
 
     def _export(self, name: str) -> None:
         write_whole(self.folder / name, EXPORTS[name].write(self._session))

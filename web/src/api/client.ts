@@ -68,6 +68,11 @@ async function errorText(response: Response): Promise<string> {
 
 const STORED = "usd2kg-key";
 
+/** Returns the access key in the fragment of the address; null without one. */
+export function keyOfAddress(location: Pick<Location, "hash">): string | null {
+  return new URLSearchParams(location.hash.replace(/^#/, "")).get("token") || null;
+}
+
 /**
  * Returns the access key: from the fragment of the address, which is then removed so that it is not shared by accident,
  * or as this tab remembers it; null if it is unknown.
@@ -77,8 +82,8 @@ export function readKey(
   store: Pick<Storage, "getItem" | "setItem">,
   replace: (url: string) => void,
 ): string | null {
-  const given = new URLSearchParams(location.hash.replace(/^#/, "")).get("token");
-  if (given !== null && given !== "") {
+  const given = keyOfAddress(location);
+  if (given !== null) {
     store.setItem(STORED, given);
     replace(location.pathname + location.search);
     return given;

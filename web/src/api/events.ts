@@ -1,7 +1,7 @@
 /** Server-sent events over fetch, since EventSource cannot send the access key. */
 
 import { ApiFailure, type Client } from "./client";
-import type { ChangeEvent, SuggestionsEvent } from "./types";
+import type { ChangeEvent, Outputs, SuggestionsEvent } from "./types";
 
 /** One event of a stream. */
 export interface StreamEvent {
@@ -38,6 +38,8 @@ const RETRY_MS = [500, 1000, 2000, 5000];
 
 export interface StreamHandlers {
   onChange(change: ChangeEvent): void;
+  /** Called when the files have been written. */
+  onOutputs(outputs: Outputs): void;
   /** Called when somebody has grounded the open objects again. */
   onSuggestions(event: SuggestionsEvent): void;
   /** Called when the connection is made or lost. */
@@ -65,6 +67,7 @@ export async function listen(
         if (done) break;
         for (const event of parser.push(decoder.decode(value, { stream: true }))) {
           if (event.name === "change") handlers.onChange(JSON.parse(event.data) as ChangeEvent);
+          if (event.name === "outputs") handlers.onOutputs(JSON.parse(event.data) as Outputs);
           if (event.name === "suggestions") handlers.onSuggestions(JSON.parse(event.data) as SuggestionsEvent);
         }
       }

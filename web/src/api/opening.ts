@@ -1,6 +1,6 @@
 /** The first requests of the page. */
 
-import { storedReviewer } from "../state/reviewer";
+import { type NameStorage, storedReviewer } from "../state/reviewer";
 import { type Client, createClient } from "./client";
 import type { SceneData, States } from "./types";
 
@@ -8,12 +8,12 @@ import type { SceneData, States } from "./types";
 export interface Opening {
   client: Client;
   scene: Promise<SceneData>;
-  /** As this browser's reviewer sees them. */
+  /** As this tab's reviewer sees them. */
   states: Promise<States>;
 }
 
 /** Asks for the scene and the states. */
-export function openScene(key: string, storage: Pick<Storage, "getItem">, client: Client = createClient(key)): Opening {
+export function openScene(key: string, storage: NameStorage, client: Client = createClient(key)): Opening {
   const reviewer = storedReviewer(storage);
   const path = reviewer === null ? "states" : `states?reviewer=${encodeURIComponent(reviewer)}`;
   const opening = { client, scene: client.get<SceneData>("scene"), states: client.get<States>(path) };

@@ -337,7 +337,12 @@ export interface ChangeEvent {
   page: string;
   states: ObjectState[];
   message: string;
+  /** Whether `reviewer` can undo or redo now. */
+  can_undo: boolean;
+  can_redo: boolean;
 }
+
+/** The same stream, event `outputs`, has `Outputs`: the files have been written. */
 
 /** The same stream, event `suggestions`: the open objects were grounded again, so all states have to be loaded. */
 export interface SuggestionsEvent {

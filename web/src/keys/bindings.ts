@@ -5,7 +5,7 @@ import { toggleAudit } from "../state/audit";
 import { loadCandidates } from "../state/candidates";
 import { openConcept } from "../state/concepts";
 import { openProposal } from "../state/proposals";
-import { superclass } from "../state/review";
+import { superclasses } from "../state/review";
 import type { Store } from "../state/store";
 
 export interface ViewCommands {
@@ -261,10 +261,14 @@ async function chooseCandidate(store: Store, number: number): Promise<void> {
   }
 }
 
+/** Chooses the superclass that the objects have in common: one key is one decision. */
 function chooseSuperclass(store: Store): void {
-  const state = store.states.value[store.targets.value[0] ?? -1];
-  const above = state === undefined ? -1 : superclass(store.model, state.class >= 0 ? state.class : state.suggested);
-  if (above >= 0) void store.decide(store.targets.value, "choose", above);
+  const targets = store.targets.value;
+  const [above, ...others] = superclasses(store.model, store.states.value, targets);
+  if (above === undefined) return;
+  if (others.length > 0) store.notify(`The ${targets.length} objects have several superclasses. Choose a class with /`);
+  else if (above < 0) store.notify("The class has no superclass. Choose a class with /");
+  else void store.decide(targets, "choose", above);
 }
 
 function moveMember(store: Store, by: number): void {
@@ -273,7 +277,7 @@ function moveMember(store: Store, by: number): void {
   if (next === undefined) return;
   // Where one member is selected, not the group, the selection moves along.
   if (store.selection.value.length === 1) store.select([next]);
-  else store.member.value = objects.indexOf(next);
+  else store.focus(next);
 }
 
 /** Returns whether each dialog is open. */

@@ -71,5 +71,5 @@ export function showAnswer(store: Store, objects: readonly number[]): void {
   store.answer.value = new Set(found);
   store.colorMode.value = "answer";
   store.select(found);
-  store.lookAt.value = found;
+  store.show(found);
 }

@@ -1,6 +1,7 @@
 /** Facets: the states, confidences, concepts and rooms of the objects, to filter by. */
 
 import type { ReviewState } from "../api/types";
+import { isAuditing } from "../state/audit";
 import { STATE_LABELS } from "../state/colors";
 import { countBy, type Filters } from "../state/filters";
 import { conceptLabel } from "../state/model";
@@ -18,7 +19,6 @@ export function Facets({ store }: { store: Store }) {
     if (!chosen.delete(state)) chosen.add(state);
     set({ states: chosen });
   };
-  const [least, most] = filters.value.confidence;
   return (
     <div class="facets">
       <h3>State</h3>
@@ -30,32 +30,7 @@ export function Facets({ store }: { store: Store }) {
           <span class="count">{count}</span>
         </label>
       ))}
-      <h3>Confidence</h3>
-      <Histogram values={states.map((state) => state.confidence ?? 0)} least={least} most={most} />
-      <div class="range">
-        <label>
-          from {least.toFixed(2)}
-          <input
-            type="range"
-            min="0"
-            max="1"
-            step="0.05"
-            value={least}
-            onInput={(event) => set({ confidence: [Math.min(event.currentTarget.valueAsNumber, most), most] })}
-          />
-        </label>
-        <label>
-          to {most.toFixed(2)}
-          <input
-            type="range"
-            min="0"
-            max="1"
-            step="0.05"
-            value={most}
-            onInput={(event) => set({ confidence: [least, Math.max(event.currentTarget.valueAsNumber, least)] })}
-          />
-        </label>
-      </div>
+      {!isAuditing(store) && <Confidence store={store} />}
       <Values
         title="Room"
         values={countBy(states, (state) => model.data.objects.room[state.object] ?? -1)}
@@ -71,6 +46,44 @@ export function Facets({ store }: { store: Store }) {
         onChoose={(concept) => set({ concept })}
       />
     </div>
+  );
+}
+
+function Confidence({ store }: { store: Store }) {
+  const { filters, states } = store;
+  const [least, most] = filters.value.confidence;
+  const set = (from: number, to: number) => {
+    filters.value = { ...filters.value, confidence: [from, to] };
+  };
+  return (
+    <>
+      <h3>Confidence</h3>
+      <Histogram values={states.value.map((state) => state.confidence ?? 0)} least={least} most={most} />
+      <div class="range">
+        <label>
+          from {least.toFixed(2)}
+          <input
+            type="range"
+            min="0"
+            max="1"
+            step="0.05"
+            value={least}
+            onInput={(event) => set(Math.min(event.currentTarget.valueAsNumber, most), most)}
+          />
+        </label>
+        <label>
+          to {most.toFixed(2)}
+          <input
+            type="range"
+            min="0"
+            max="1"
+            step="0.05"
+            value={most}
+            onInput={(event) => set(least, Math.max(event.currentTarget.valueAsNumber, least))}
+          />
+        </label>
+      </div>
+    </>
   );
 }
 

@@ -1,13 +1,12 @@
 /** Review: the queue, the current group with its members, and the candidates. */
 
-import type { Signal } from "@preact/signals";
-import type { QueueGroup, QueueOrder } from "../api/types";
+import type { ObjectIndex, QueueGroup, QueueOrder } from "../api/types";
 import { auditText, isAuditing, showOrder, toggleAudit } from "../state/audit";
 import { STATE_LABELS } from "../state/colors";
 import { openConcept } from "../state/concepts";
 import { classLabel, conceptLabel } from "../state/model";
 import { openProposal } from "../state/proposals";
-import { reasonsForNoClass } from "../state/review";
+import { groupCount, reasonsForNoClass } from "../state/review";
 import type { Store } from "../state/store";
 import { Choice } from "./Choice";
 import { Thumbnail } from "./Thumbnail";
@@ -33,13 +32,17 @@ export function Review({ store }: { store: Store }) {
   return (
     <div class="review">
       <QueueList store={store} />
-      {group === null ? (
-        <p class="empty">{store.queue.value === null ? "Loading the queue…" : "Nothing is open here. Well done."}</p>
-      ) : (
-        <GroupCard store={store} group={group} />
-      )}
+      {group === null ? <p class="empty">{emptyText(store)}</p> : <GroupCard store={store} group={group} />}
     </div>
   );
+}
+
+/** Returns why there is no group to review. */
+function emptyText(store: Store): string {
+  if (store.queue.value === null) return "Loading the queue…";
+  const open = store.openGroups.value.length;
+  if (open === 0) return "Nothing is open here. Well done.";
+  return `No open object matches the filter; ${groupCount(open)} open.`;
 }
 
 const ROW_HEIGHT = 44;
@@ -107,7 +110,7 @@ function suggestionLabel(store: Store, group: QueueGroup): string {
 const MEMBERS_SHOWN = 48;
 
 function GroupCard({ store, group }: { store: Store; group: QueueGroup }) {
-  const { excluded, member, model } = store;
+  const { excluded, hiddenMembers, member, model } = store;
   const count = store.ticked.value.length;
   const first = MEMBERS_SHOWN * Math.floor(member.value / MEMBERS_SHOWN);
   const last = Math.min(first + MEMBERS_SHOWN, group.objects.length);
@@ -121,9 +124,10 @@ function GroupCard({ store, group }: { store: Store; group: QueueGroup }) {
         {store.isGroupInFocus.value ? (
           <p>
             {count} of {group.objects.length} ticked
+            {hiddenMembers.value > 0 && ` · ${hiddenMembers.value} filtered out`}
             {group.confidence !== null && ` · confidence ${group.confidence.toFixed(2)}`}
             {group.objects.length > MEMBERS_SHOWN && (
-              <MemberPages member={member} first={first} last={last} count={group.objects.length} />
+              <MemberPages store={store} objects={group.objects} first={first} last={last} />
             )}
           </p>
         ) : (
@@ -164,22 +168,22 @@ function GroupCard({ store, group }: { store: Store; group: QueueGroup }) {
 }
 
 interface MemberPagesProps {
-  member: Signal<number>;
+  store: Store;
+  objects: readonly ObjectIndex[];
   first: number;
   last: number;
-  count: number;
 }
 
-function MemberPages({ member, first, last, count }: MemberPagesProps) {
-  const isFirst = first === 0;
-  const isLast = last === count;
+function MemberPages({ store, objects, first, last }: MemberPagesProps) {
+  const [before, after] = [objects[first - 1], objects[last]];
+  const turn = (object: ObjectIndex | undefined) => object !== undefined && store.focus(object);
   return (
     <span class="member-pages">
-      <button type="button" aria-label="Members before" disabled={isFirst} onClick={() => (member.value = first - 1)}>
+      <button type="button" aria-label="Members before" disabled={before === undefined} onClick={() => turn(before)}>
         ‹
       </button>
       {first + 1} to {last}
-      <button type="button" aria-label="Members after" disabled={isLast} onClick={() => (member.value = last)}>
+      <button type="button" aria-label="Members after" disabled={after === undefined} onClick={() => turn(after)}>
         ›
       </button>
     </span>

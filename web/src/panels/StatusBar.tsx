@@ -1,7 +1,7 @@
 /** The line at the bottom: whether decisions are saved, who decides, how much is left. */
 
 import { useState } from "preact/hooks";
-import { durationText } from "../state/review";
+import { durationText, groupCount } from "../state/review";
 import type { Saving, Store } from "../state/store";
 
 const SAVING: Record<Saving, string> = {
@@ -17,7 +17,7 @@ export function StatusBar({ store }: { store: Store }) {
   const decided = store.decided.value;
   const share = model.count === 0 ? 1 : decided / model.count;
   const { folder, problem } = store.outputs.value;
-  const groups = store.groups.value.length;
+  const groups = store.openGroups.value.length;
   const saving = store.saving.value;
   return (
     <footer class="status-bar">
@@ -35,7 +35,7 @@ export function StatusBar({ store }: { store: Store }) {
       </span>
       <span>
         {decided} of {model.count} decided
-        {groups > 0 && ` · ${groups} ${groups === 1 ? "group" : "groups"} open`}
+        {groups > 0 && ` · ${groupCount(groups)} open`}
         {seconds !== null && ` · about ${durationText(seconds)} left`}
       </span>
       <Reviewer store={store} />

@@ -1,11 +1,20 @@
 /** The bar at the top: search and facets, colours, views, undo, export. */
 
 import type { ViewCommands } from "../keys/bindings";
+import { isAuditing } from "../state/audit";
 import { COLOR_MODES } from "../state/colors";
-import { isFiltering, NO_FILTERS } from "../state/filters";
+import { NO_FILTERS } from "../state/filters";
 import type { Store } from "../state/store";
 import { Choice } from "./Choice";
 import { ExportMenu } from "./ExportMenu";
+
+/** Returns the colours to choose from. */
+function colorModes(store: Store): typeof COLOR_MODES {
+  const { has_comparison } = store.model.data;
+  return COLOR_MODES.filter(
+    ({ id }) => (id !== "change" || has_comparison) && (id !== "confidence" || !isAuditing(store)),
+  );
+}
 
 export function TopBar({ store, view }: { store: Store; view: ViewCommands }) {
   const { model, filters } = store;
@@ -22,16 +31,16 @@ export function TopBar({ store, view }: { store: Store; view: ViewCommands }) {
           value={filters.value.text}
           onInput={(event) => (filters.value = { ...filters.value, text: event.currentTarget.value })}
         />
-        {isFiltering(filters.value) && (
+        {shown !== null && (
           <button type="button" class="chip" onClick={() => (filters.value = NO_FILTERS)}>
-            {shown?.size ?? 0} of {model.count} shown · clear
+            {shown.size} of {model.count} shown · clear
           </button>
         )}
       </div>
       <Choice
         label="Color by"
-        options={COLOR_MODES.filter(({ id }) => id !== "change" || model.data.has_comparison)}
-        value={store.colorMode.value}
+        options={colorModes(store)}
+        value={store.shownColors.value}
         onChange={(mode) => {
           store.colorMode.value = mode;
         }}

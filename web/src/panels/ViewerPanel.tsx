@@ -4,6 +4,7 @@ import { computed, effect } from "@preact/signals";
 import { useEffect, useLayoutEffect, useRef, useState } from "preact/hooks";
 import type { ObjectIndex } from "../api/types";
 import type { ViewCommands } from "../keys/bindings";
+import { isAuditing } from "../state/audit";
 import { pageOf } from "../state/candidates";
 import { colorObjects, cssColor, type LegendEntry } from "../state/colors";
 import { colorChanges, comparisonOf } from "../state/comparison";
@@ -107,13 +108,13 @@ function follow(store: Store, viewer: Viewer, setLegend: (legend: LegendEntry[])
   return [
     stop,
     effect(() => {
-      const mode = store.colorMode.value;
+      const mode = store.shownColors.value;
       const { colors, legend } =
         mode === "change"
           ? colorChanges(store.model.count, comparisonOf(store).rows.value)
           : colorObjects(mode, store.model, store.states.value, store.answer.value, supports.value);
       setLegend(legend);
-      viewer.setAppearance(appearanceOf(store, colors, viewer.eye, before.value), store.colorMode.value === "material");
+      viewer.setAppearance(appearanceOf(store, colors, viewer.eye, before.value), mode === "material");
     }),
     ...followComparison(store, viewer),
     effect(() => viewer.setSelection(store.selection.value)),
@@ -255,7 +256,7 @@ function HoverLine({ store }: { store: Store }) {
     <p class="hover-line">
       <strong>{store.model.data.objects.name[object]}</strong>
       {state.class >= 0 && ` · ${classLabel(store.model, state.class)}`}
-      {state.confidence !== null && ` · ${state.confidence.toFixed(2)}`}
+      {state.confidence !== null && !isAuditing(store) && ` · ${state.confidence.toFixed(2)}`}
     </p>
   );
 }

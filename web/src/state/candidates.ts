@@ -17,7 +17,7 @@ export function focusOf(store: Store): ObjectIndex {
   return selected ?? -1;
 }
 
-/** Returns the page of the focused object; it follows the focus and the decisions. */
+/** Returns the page of the focused object; it follows the focus, the decisions and the graph that is written. */
 export function pageOf(store: Store): Signal<ObjectPage | null> {
   const known = pages.get(store);
   if (known !== undefined) return known;
@@ -25,8 +25,10 @@ export function pageOf(store: Store): Signal<ObjectPage | null> {
   pages.set(store, page);
   effect(() => {
     const object = focusOf(store);
-    // A decision changes the history on the page.
+    // A decision changes the history on the page, the graph its statements and relations.
     void store.version.value;
+    void store.written.value;
+    void store.connections.value;
     if (object < 0) {
       page.value = null;
       return;

@@ -85,7 +85,7 @@ export class ComparisonState {
     batch(() => {
       this.focused.value = change;
       this.store.select(change.object < 0 ? [] : [change.object]);
-      if (change.object >= 0) this.store.lookAt.value = [change.object];
+      if (change.object >= 0) this.store.show([change.object]);
     });
   }
 }

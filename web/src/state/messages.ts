@@ -1,8 +1,18 @@
 /** Messages about decisions. */
 
-import type { ClassIndex, DecisionAction, DecisionReply } from "../api/types";
+import type { ClassIndex, DecisionAction, DecisionReply, ObjectIndex } from "../api/types";
 import { classLabel, conceptLabel, type SceneModel } from "./model";
 import type { DecisionDetails } from "./store";
+
+export function messageOf(error: unknown): string {
+  return error instanceof Error ? error.message : String(error);
+}
+
+/** Returns objects by the name of the first: `Cup_1 and 3 more`. */
+export function nameObjects(model: SceneModel, objects: readonly ObjectIndex[]): string {
+  const name = model.data.objects.name[objects[0] ?? -1] ?? "nothing";
+  return objects.length > 1 ? `${name} and ${objects.length - 1} more` : name;
+}
 
 /** Returns what a decision has done, for people. */
 export function describeDecision(

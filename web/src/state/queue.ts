@@ -2,15 +2,22 @@
 
 import type { ObjectIndex, Queue, QueueGroup } from "../api/types";
 
-/** Returns the queue without objects that have been decided. */
-export function withoutObjects(queue: Queue, decided: ReadonlySet<ObjectIndex>): Queue {
-  if (decided.size === 0) return queue;
-  const groups = queue.groups.flatMap((group) => {
-    const objects = group.objects.filter((object) => !decided.has(object));
+/** Returns the groups with those of their objects that pass; a group without any is left out. */
+export function restrictGroups(
+  groups: readonly QueueGroup[],
+  passes: (object: ObjectIndex) => boolean,
+): readonly QueueGroup[] {
+  return groups.flatMap((group) => {
+    const objects = group.objects.filter(passes);
     if (objects.length === group.objects.length) return [group];
     return objects.length === 0 ? [] : [{ ...group, objects }];
   });
-  return { ...queue, groups };
+}
+
+/** Returns the queue without objects that have been decided. */
+export function withoutObjects(queue: Queue, decided: ReadonlySet<ObjectIndex>): Queue {
+  if (decided.size === 0) return queue;
+  return { ...queue, groups: [...restrictGroups(queue.groups, (object) => !decided.has(object))] };
 }
 
 /** Returns the group to show once objects are decided: the exceptions of the current group, else the next one. */

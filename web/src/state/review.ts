@@ -69,6 +69,23 @@ export function superclass(model: SceneModel, index: ClassIndex): ClassIndex {
   return model.data.classes[index]?.parents[0] ?? -1;
 }
 
+/** Returns the superclasses of the classes of some objects, decided or suggested, each once; -1 for a root or no class. */
+export function superclasses(
+  model: SceneModel,
+  states: readonly ObjectState[],
+  objects: readonly ObjectIndex[],
+): ClassIndex[] {
+  const found = objects.map((object) => {
+    const { class: index = -1, suggested = -1 } = states[object] ?? {};
+    return superclass(model, index >= 0 ? index : suggested);
+  });
+  return [...new Set(found)];
+}
+
+export function groupCount(count: number): string {
+  return `${count} ${count === 1 ? "group" : "groups"}`;
+}
+
 /** Returns a time like "2 h 10 min". */
 export function durationText(seconds: number): string {
   const minutes = Math.round(seconds / 60);

@@ -1,12 +1,26 @@
-/** The name under which this browser decides. */
+/** The name under which this tab decides. */
 
 const STORED = "usd2kg-reviewer";
 
-/** Returns the name that the user has typed; null if there is none, so that the server's suggestion holds. */
-export function storedReviewer(storage: Pick<Storage, "getItem">): string | null {
-  return storage.getItem(STORED);
+export interface NameStorage {
+  /** Outlives a reload of this tab; other tabs have their own. */
+  tab: Pick<Storage, "getItem" | "setItem">;
+  /** Shared by all tabs: the name with which a new one begins. */
+  browser: Pick<Storage, "getItem" | "setItem">;
 }
 
-export function storeReviewer(name: string, storage: Pick<Storage, "setItem">): void {
-  storage.setItem(STORED, name);
+/** Returns the name of this tab, or the last one that was typed in any; null if there is none. */
+export function storedReviewer({ tab, browser }: NameStorage): string | null {
+  return tab.getItem(STORED) ?? browser.getItem(STORED);
+}
+
+/** Keeps the name of this tab, whatever is typed in others. */
+export function keepReviewer(name: string, { tab }: NameStorage): void {
+  tab.setItem(STORED, name);
+}
+
+/** Keeps a name that the user has typed, for new tabs too. */
+export function storeReviewer(name: string, storage: NameStorage): void {
+  keepReviewer(name, storage);
+  storage.browser.setItem(STORED, name);
 }

@@ -7,6 +7,8 @@ import { applyStates } from "./review";
 export class StateTable {
   /** The states to show: what the server has said, then what it is expected to say. */
   readonly shown: ReadonlySignal<readonly ObjectState[]>;
+  /** The objects with a decision that the server has not answered. */
+  readonly waiting: ReadonlySignal<ReadonlySet<ObjectIndex>>;
   private readonly known: Signal<readonly ObjectState[]>;
   private readonly expected = signal<readonly (readonly ObjectState[])[]>([]);
   /** Version of each object's known state, where it is not that of the whole table. */
@@ -18,6 +20,7 @@ export class StateTable {
   ) {
     this.known = signal(states);
     this.shown = computed(() => this.expected.value.reduce(applyStates, this.known.value));
+    this.waiting = computed(() => new Set(this.expected.value.flat().map(({ object }) => object)));
   }
 
   /** Replaces all states by those of a version. */
@@ -40,10 +43,5 @@ export class StateTable {
     return () => {
       this.expected.value = this.expected.value.filter((each) => each !== states);
     };
-  }
-
-  /** Returns the objects with a decision that the server has not answered. */
-  waiting(): Set<ObjectIndex> {
-    return new Set(this.expected.value.flat().map(({ object }) => object));
   }
 }

@@ -19,14 +19,14 @@ import type {
   States,
   SuggestionsEvent,
 } from "../api/types";
-import { isAuditOf } from "./audit";
+import { isAuditing, isAuditOf } from "./audit";
 import type { ColorMode } from "./colors";
 import { type Filters, filterObjects, isFiltering, NO_FILTERS } from "./filters";
-import { describeDecision } from "./messages";
+import { describeDecision, messageOf, nameObjects } from "./messages";
 import { buildModel, type SceneModel } from "./model";
-import { findAgain, groupAfter, withoutObjects } from "./queue";
+import { findAgain, groupAfter, restrictGroups, withoutObjects } from "./queue";
 import { isOpen, predictStates, withoutSuggestion } from "./review";
-import { storedReviewer, storeReviewer } from "./reviewer";
+import { keepReviewer, type NameStorage, storedReviewer, storeReviewer } from "./reviewer";
 import { StateTable } from "./stateTable";
 
 export type Saving = "saved" | "saving" | "failed" | "offline";
@@ -41,6 +41,15 @@ interface Notice {
   kind: "info" | "error";
 }
 
+/** A request whose answer was lost: it may be on disk or not. */
+interface LostRequest {
+  what: string;
+  /** Version before it. */
+  seen: number;
+  /** The states that it leads to, as far as the page can tell. */
+  expected: readonly ObjectState[];
+}
+
 const MAX_FRAMED = 200;
 /** A key pressed so soon after the queue moved by itself was meant for the group before. */
 const MOVED_MS = 800;
@@ -53,11 +62,25 @@ export class Store {
   readonly canUndo = signal(false);
   readonly canRedo = signal(false);
   readonly outputs = signal<Outputs>({ folder: "", problem: "" });
-  readonly saving = signal<Saving>("saved");
+  /** Counts how often the files were written: the graph has changed. */
+  readonly written = signal(0);
+  readonly isOffline = signal(false);
+  /** Counts how often all was loaded again after a lost connection: what failed meanwhile is worth another try. */
+  readonly connections = signal(0);
+  private readonly unanswered = signal(0);
+  /** Whether a decision was not saved since the last one was sent. */
+  private readonly hasFailed = signal(false);
+  readonly saving = computed<Saving>(() => {
+    if (this.isOffline.value) return "offline";
+    if (this.unanswered.value > 0) return "saving";
+    return this.hasFailed.value ? "failed" : "saved";
+  });
   readonly reviewer: Signal<string>;
   readonly notices = signal<readonly Notice[]>([]);
 
-  readonly selection = signal<readonly ObjectIndex[]>([]);
+  /** What is selected by itself; null where the group under review is selected, however it changes. */
+  private readonly picked = signal<readonly ObjectIndex[] | null>([]);
+  readonly selection = computed<readonly ObjectIndex[]>(() => this.picked.value ?? this.group.value?.objects ?? []);
   readonly hovered = signal<ObjectIndex>(-1);
   readonly isolated = signal<ReadonlySet<ObjectIndex> | null>(null);
   readonly isSeeThrough = signal(false);
@@ -66,6 +89,10 @@ export class Store {
   readonly cutShare = signal(1);
   /** By material at first; where nothing has one, that would be a grey picture. */
   readonly colorMode: Signal<ColorMode>;
+  /** The colours that are shown: an audit hides confidences. */
+  readonly shownColors = computed<ColorMode>(() =>
+    isAuditing(this) && this.colorMode.value === "confidence" ? "class" : this.colorMode.value,
+  );
   readonly answer = signal<ReadonlySet<ObjectIndex>>(new Set());
   readonly relationKinds = signal<ReadonlySet<string>>(new Set(["on", "inside", "next-to", "attached-to", "part-of"]));
 
@@ -81,25 +108,41 @@ export class Store {
   /** What grounding again has changed, while its list is open. */
   readonly changes = signal<RegroundReply["changes"] | null>(null);
 
+  /** As the server said last, without what it has answered since. */
   readonly queue = signal<Queue | null>(null);
   readonly order = signal<QueueOrder>("gain");
   readonly groupId = signal<string>("");
   /** Members of the current group that the next decision leaves out. */
   readonly excluded = signal<ReadonlySet<ObjectIndex>>(new Set());
-  readonly member = signal(0);
+  private readonly focused = signal<ObjectIndex>(-1);
+  /** Place of the current member in the group: that of the focused object, or the first. */
+  readonly member = computed(() => Math.max(0, this.group.value?.objects.indexOf(this.focused.value) ?? 0));
 
-  readonly shown = computed(() =>
-    isFiltering(this.filters.value) ? new Set(filterObjects(this.model, this.states.value, this.filters.value)) : null,
-  );
-  /** The groups with at least one member that passes the filters. */
+  /** The objects that pass the filters; null for all. An audit hides confidences, and so does not filter by them. */
+  readonly shown = computed<ReadonlySet<ObjectIndex> | null>(() => {
+    const { confidence } = isAuditing(this) ? NO_FILTERS : this.filters.value;
+    const filters = { ...this.filters.value, confidence };
+    return isFiltering(filters) ? new Set(filterObjects(this.model, this.states.value, filters)) : null;
+  });
+  /** The groups without what is decided and not answered yet; they come back if the server refuses. */
+  readonly openGroups = computed<readonly QueueGroup[]>(() => {
+    const waiting = this.table.waiting.value;
+    const groups = this.queue.value?.groups ?? [];
+    return waiting.size === 0 ? groups : restrictGroups(groups, (object) => !waiting.has(object));
+  });
+  /** The open groups, each with the members that pass the filters. */
   readonly groups = computed<readonly QueueGroup[]>(() => {
     const shown = this.shown.value;
-    const groups = this.queue.value?.groups ?? [];
-    return shown === null ? groups : groups.filter((group) => group.objects.some((object) => shown.has(object)));
+    return shown === null ? this.openGroups.value : restrictGroups(this.openGroups.value, (each) => shown.has(each));
   });
   readonly group = computed<QueueGroup | null>(
     () => this.groups.value.find((group) => group.id === this.groupId.value) ?? this.groups.value[0] ?? null,
   );
+  /** Number of members of the current group that the filters hide. */
+  readonly hiddenMembers = computed(() => {
+    const whole = this.openGroups.value.find((group) => group.id === this.group.value?.id);
+    return (whole?.objects.length ?? 0) - (this.group.value?.objects.length ?? 0);
+  });
   /** The ticked members of the current group. */
   readonly ticked = computed<readonly ObjectIndex[]>(
     () => this.group.value?.objects.filter((object) => !this.excluded.value.has(object)) ?? [],
@@ -124,17 +167,17 @@ export class Store {
   private readonly table: StateTable;
   private nextNotice = 1;
   private queueRequests = 0;
-  /** When the queue last moved by itself, as `performance.now()`. */
-  private movedAt = Number.NEGATIVE_INFINITY;
+  /** When the queue last moved by itself, as `performance.now()`, and why. */
+  private moved = { at: Number.NEGATIVE_INFINITY, why: "" };
   /** Decisions, undo and redo reach the server in the order of the keys. */
   private lastSent: Promise<unknown> = Promise.resolve();
-  private unanswered = 0;
+  private lost: LostRequest[] = [];
 
   constructor(
     readonly client: Client,
     data: SceneData,
     states: States,
-    private readonly storage: Pick<Storage, "getItem" | "setItem">,
+    private readonly storage: NameStorage,
   ) {
     this.model = buildModel(data);
     this.table = new StateTable(states.states, states.version);
@@ -144,6 +187,7 @@ export class Store {
     this.canRedo.value = states.can_redo;
     this.outputs.value = states.outputs;
     this.reviewer = signal(storedReviewer(storage) ?? data.reviewer);
+    keepReviewer(this.reviewer.value, storage);
     this.colorMode = signal(data.has_colors ? "material" : "class");
   }
 
@@ -168,10 +212,11 @@ export class Store {
   /** Selects objects; one of the group under review becomes its current member. */
   select(objects: readonly ObjectIndex[], isAdding = false): void {
     if (!isAdding) {
-      const member = objects.length === 1 ? (this.group.value?.objects.indexOf(objects[0] as ObjectIndex) ?? -1) : -1;
+      const [object] = objects;
+      const isMember = object !== undefined && objects.length === 1 && this.group.value?.objects.includes(object);
       batch(() => {
-        this.selection.value = objects;
-        if (member >= 0) this.member.value = member;
+        this.picked.value = objects;
+        if (isMember === true) this.focused.value = object;
       });
       return;
     }
@@ -180,7 +225,20 @@ export class Store {
       if (known.has(object)) known.delete(object);
       else known.add(object);
     }
-    this.selection.value = [...known];
+    this.picked.value = [...known];
+  }
+
+  /** Makes a member the current one, without selecting it. */
+  focus(member: ObjectIndex): void {
+    this.focused.value = member;
+  }
+
+  /** Looks at objects; where others are isolated, these are from now on. */
+  show(objects: readonly ObjectIndex[]): void {
+    batch(() => {
+      this.lookAt.value = objects.slice(0, MAX_FRAMED);
+      if (this.isolated.value !== null) this.isolated.value = objects.length === 0 ? null : new Set(objects);
+    });
   }
 
   // Review.
@@ -191,9 +249,10 @@ export class Store {
     try {
       const queue = await this.client.get<Queue>(`queue?order=${this.order.value}`);
       if (request !== this.queueRequests) return false;
-      this.showQueue(withoutObjects(queue, this.table.waiting()), isFromOthers);
+      this.showQueue(queue, isFromOthers);
     } catch (error) {
-      this.report(error);
+      // While the page is offline, the status line says so; it loads all again.
+      if (!this.isOffline.value) this.report(error);
     }
     return true;
   }
@@ -210,10 +269,16 @@ export class Store {
         this.groupId.value = again.id;
         return;
       }
-      if (isFromOthers) this.movedAt = performance.now();
+      if (isFromOthers) this.moved = { at: performance.now(), why: "Another reviewer has decided the group before." };
       const next = following === null ? null : findAgain(this.groups.value, following);
       this.goTo((next ?? this.groups.value[0])?.id ?? "");
     });
+  }
+
+  /** Hears from the stream of changes whether it is connected; after a loss, all is loaded again. */
+  setConnected(isConnected: boolean): void {
+    if (!isConnected) this.isOffline.value = true;
+    else if (this.isOffline.value) void this.reload();
   }
 
   /** Loads all states again, for another reviewer's undo or after a lost connection. */
@@ -227,22 +292,36 @@ export class Store {
         this.table.reset(states.states, states.version);
         this.version.value = states.version;
         this.take(states);
-        if (this.saving.value === "offline") this.saving.value = "saved";
+        if (this.isOffline.value) this.connections.value++;
+        this.isOffline.value = false;
+        this.settle(states);
       });
       await this.loadQueue();
     } catch (error) {
       // While the page is offline, the status line says so, and the stream of changes tries again.
-      if (this.saving.value !== "offline") this.report(error);
+      if (!this.isOffline.value) this.report(error);
     }
+  }
+
+  /** Finds which requests without an answer are on disk, and says which are not. */
+  private settle({ states, version }: States): void {
+    if (this.lost.length === 0) return;
+    const isKnown = ({ object, state, class: index }: ObjectState) =>
+      states[object]?.state === state && states[object]?.class === index;
+    const unsaved = this.lost.filter(({ seen, expected }) => version <= seen || !expected.every(isKnown));
+    this.lost = [];
+    this.hasFailed.value = unsaved.length > 0;
+    if (unsaved.length === 0) return;
+    this.notify(`Not saved while the server did not answer: ${unsaved.map(({ what }) => what).join("; ")}`, "error");
   }
 
   goTo(id: string): void {
     batch(() => {
       this.groupId.value = id;
       this.excluded.value = new Set();
-      this.member.value = 0;
-      this.selection.value = this.groups.value.find((group) => group.id === id)?.objects ?? [];
-      this.lookAt.value = this.selection.value.slice(0, MAX_FRAMED);
+      this.focused.value = -1;
+      this.picked.value = null;
+      this.show(this.selection.value);
     });
   }
 
@@ -277,47 +356,58 @@ export class Store {
       this.notify(`${which}no suggestion to confirm. Choose a class with /`);
       return;
     }
-    const forget = this.table.expect(predictStates(this.states.value, objects, action, chosen));
-    const { seen, group } = { seen: this.version.value, group: this.group.value };
-    const isAudit = isAuditOf(this, objects, action, details);
-    if (action !== "clear") this.moveOn(objects);
-    const reply = await this.send("decisions", {
+    const body = {
       objects,
       action,
       reviewer: this.reviewer.value,
       page: this.page,
-      seen,
+      seen: this.version.value,
       ...(chosen === undefined ? {} : { class: chosen }),
       ...details,
-      ...(isAudit ? { audit: true } : {}),
+      ...(isAuditOf(this, objects, action, details) ? { audit: true } : {}),
+    };
+    const expected = predictStates(this.states.value, objects, action, chosen);
+    const decided = new Set(action === "clear" ? [] : objects);
+    const { forget, goBack } = batch(() => this.anticipate(decided, expected));
+    const reply = await this.send("decisions", body, nameObjects(this.model, objects), expected);
+    batch(() => {
+      if (reply !== null && this.queue.value !== null) this.queue.value = withoutObjects(this.queue.value, decided);
+      forget();
+      if (reply === null) goBack();
+      else this.notify(describeDecision(this.model, reply, objects.length, action, chosen, details));
     });
-    forget();
-    if (reply !== null) this.notify(describeDecision(this.model, reply, objects.length, action, chosen, details));
     await this.loadQueue();
-    const again = reply === null && group !== null ? findAgain(this.groups.value, group) : null;
-    if (again !== null) this.goTo(again.id);
   }
 
   /** Tells the reviewer, once, that the keys now decide about another group. */
   private hasJustMoved(): boolean {
-    if (performance.now() - this.movedAt > MOVED_MS) return false;
-    this.movedAt = Number.NEGATIVE_INFINITY;
-    this.notify(
-      "Another reviewer has decided the group before this one. Press the key again to decide about this one.",
-    );
+    if (performance.now() - this.moved.at > MOVED_MS) return false;
+    this.moved.at = Number.NEGATIVE_INFINITY;
+    this.notify(`${this.moved.why} Press the key again to decide about this one.`);
     return true;
   }
 
-  /** Takes decided objects out of the queue, and goes to the exceptions of their group or the next one. */
-  private moveOn(objects: readonly ObjectIndex[]): void {
-    const current = this.group.value;
-    const decided = new Set(objects);
+  /**
+   * Shows what a decision will lead to, and goes to what it leaves of the current group or to the next one. Returns what
+   * forgets the prediction, and then the way back.
+   */
+  private anticipate(
+    decided: ReadonlySet<ObjectIndex>,
+    expected: readonly ObjectState[],
+  ): { forget(): void; goBack(): void } {
+    const [current, excluded] = [this.group.value, this.excluded.value];
     const isInGroup = current?.objects.some((object) => decided.has(object)) === true;
-    const next = isInGroup ? groupAfter(this.groups.value, current, decided) : current;
-    batch(() => {
-      if (this.queue.value !== null) this.queue.value = withoutObjects(this.queue.value, decided);
-      if (isInGroup) this.goTo(next?.id ?? "");
-    });
+    const next = isInGroup ? groupAfter(this.groups.value, current, decided) : null;
+    const forget = this.table.expect(expected);
+    if (isInGroup) this.goTo(next?.id ?? "");
+    const goBack = () => {
+      const again = isInGroup ? findAgain(this.groups.value, current) : null;
+      if (again === null) return;
+      this.goTo(again.id);
+      this.excluded.value = excluded;
+      this.moved = { at: performance.now(), why: "The decision about this group was not saved." };
+    };
+    return { forget, goBack };
   }
 
   /** Grounds the open objects again with what the decisions teach, and lists what changed. */
@@ -327,19 +417,19 @@ export class Store {
       this.notify(reground);
       return;
     }
-    this.saving.value = "saving";
+    this.unanswered.value++;
     try {
       const body = { reviewer: this.reviewer.value, page: this.page };
       const reply = await this.client.post<RegroundReply>("reground", body);
       batch(() => {
         this.table.reset(reply.states, reply.version);
         this.changes.value = reply.changes;
-        this.saving.value = "saved";
       });
       await this.loadQueue();
     } catch (error) {
-      this.saving.value = "saved";
-      this.report(error);
+      this.fail(error, messageOf(error));
+    } finally {
+      this.unanswered.value--;
     }
   }
 
@@ -352,7 +442,7 @@ export class Store {
   }
 
   private async revert(path: "undo" | "redo", text: string): Promise<void> {
-    const reply = await this.send(path, { reviewer: this.reviewer.value, page: this.page });
+    const reply = await this.send(path, { reviewer: this.reviewer.value, page: this.page }, path, []);
     if (reply === null) return;
     const objects = reply.states.map((state) => state.object);
     this.notify(`${text}: ${objects.length} ${objects.length === 1 ? "object" : "objects"}`);
@@ -363,9 +453,16 @@ export class Store {
     else this.select(objects);
   }
 
-  private async send(path: string, body: unknown): Promise<DecisionReply | null> {
-    this.saving.value = "saving";
-    this.unanswered++;
+  /** Sends what goes to the journal; returns null, after a message, if it is not known to be saved. */
+  private async send(
+    path: string,
+    body: unknown,
+    what: string,
+    expected: readonly ObjectState[],
+  ): Promise<DecisionReply | null> {
+    const seen = this.version.value;
+    this.hasFailed.value = false;
+    this.unanswered.value++;
     const sent = this.lastSent.then(() => this.client.post<DecisionReply>(path, body));
     this.lastSent = sent.catch(() => undefined);
     try {
@@ -373,19 +470,25 @@ export class Store {
       batch(() => {
         this.table.apply(reply.states, reply.version);
         this.take(reply);
-        if (this.unanswered === 1 && this.saving.value === "saving") this.saving.value = "saved";
       });
+      if (this.isOffline.value) void this.reload();
       return reply;
     } catch (error) {
-      const isOffline = error instanceof ApiFailure && error.status === 0;
-      this.saving.value = isOffline ? "offline" : "failed";
-      this.report(error);
-      // The decision may be on disk all the same; only the server knows.
-      if (isOffline) void this.reload();
+      this.hasFailed.value = true;
+      if (hasNoAnswer(error)) this.lost.push({ what, seen, expected });
+      this.fail(error, `Not saved: ${what} (${messageOf(error)})`);
       return null;
     } finally {
-      this.unanswered--;
+      this.unanswered.value--;
     }
+  }
+
+  /** Says that a request has failed; what has no answer may have been done all the same, which only the server knows. */
+  private fail(error: unknown, text: string): void {
+    this.notify(text, "error");
+    if (!hasNoAnswer(error)) return;
+    this.isOffline.value = true;
+    void this.reload();
   }
 
   private take(reply: Pick<States, "can_undo" | "can_redo" | "outputs">): void {
@@ -400,10 +503,21 @@ export class Store {
     batch(() => {
       this.table.apply(change.states, change.version);
       this.version.value = change.version;
+      if (change.reviewer !== this.reviewer.value) return;
+      this.canUndo.value = change.can_undo;
+      this.canRedo.value = change.can_redo;
     });
     if (change.page === this.page) return;
     if (change.reviewer !== "") this.notify(`${change.reviewer}: ${change.message}`);
     void this.loadQueue(true);
+  }
+
+  /** Hears that the files have been written, the graph among them. */
+  receiveOutputs(outputs: Outputs): void {
+    batch(() => {
+      this.outputs.value = outputs;
+      this.written.value++;
+    });
   }
 
   /** Loads the suggestions that another page has asked for. */
@@ -414,8 +528,12 @@ export class Store {
   }
 
   report(error: unknown): void {
-    this.notify(error instanceof Error ? error.message : String(error), "error");
+    this.notify(messageOf(error), "error");
   }
+}
+
+function hasNoAnswer(error: unknown): boolean {
+  return error instanceof ApiFailure && error.status === 0;
 }
 
 /** Returns a random name; `crypto.randomUUID` is missing where the page comes over plain HTTP from another machine. */
