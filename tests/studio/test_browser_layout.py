@@ -85,3 +85,34 @@ def test_nothing_is_cut_off(page: Page, width: int, height: int, is_drawer_open:
     page.wait_for_timeout(200)
     problems = page.evaluate(FIND_CLIPPED)
     assert problems == [], json.dumps(problems, indent=1, ensure_ascii=False)
+
+
+@pytest.mark.parametrize(("width", "height"), [(1024, 700), (1280, 720), (1366, 768), (1920, 1080), (420, 800)])
+def test_a_row_of_members_is_shown_with_its_names(page: Page, width: int, height: int) -> None:
+    page.set_viewport_size(ViewportSize(width=width, height=height))
+    if not page.locator(".drawer-body").is_visible():
+        page.keyboard.press("d")
+    page.locator(".queue-row", has_text="cup").first.click()
+    page.wait_for_timeout(200)
+    members, name, actions = (
+        page.locator(found).first.bounding_box() for found in (".members", ".member label", ".actions")
+    )
+    assert members is not None
+    assert name is not None
+    assert actions is not None
+    assert name["height"] >= 16
+    assert members["y"] <= name["y"]
+    assert name["y"] + name["height"] <= members["y"] + members["height"] <= actions["y"]
+
+
+def test_the_fields_of_a_proposal_are_in_its_dialog(page: Page) -> None:
+    page.set_viewport_size(ViewportSize(width=420, height=800))
+    page.keyboard.press("m")
+    dialog = page.locator("dialog").bounding_box()
+    assert dialog is not None
+    for field in page.locator("dialog input").all():
+        box = field.bounding_box()
+        assert box is not None
+        assert dialog["x"] <= box["x"]
+        assert box["x"] + box["width"] <= dialog["x"] + dialog["width"]
+    page.keyboard.press("Escape")

@@ -1,8 +1,10 @@
 """Decisions beyond a class of an object, in a real browser and by keyboard alone."""
 
+import re
+from collections import Counter
 from pathlib import Path
 
-from playwright.sync_api import Browser, expect
+from playwright.sync_api import Browser, Page, expect
 
 from tests.browser import BROWSER_MARKS, close_page, open_page
 from tests.studio.conftest import HOSTILE, running_studio
@@ -11,6 +13,7 @@ from usd2kg.demo import demo_scene
 from usd2kg.ontology import load_tbox
 
 pytestmark = BROWSER_MARKS
+CONFIDENCE = re.compile(r"\d\.\d\d")
 
 
 def test_a_concept_is_decided_in_one_stroke(browser: Browser, tmp_path: Path):
@@ -91,10 +94,20 @@ def test_the_queue_begins_where_the_grounders_disagree(browser: Browser, stage: 
         close_page(page)
 
 
+def hover(page: Page) -> None:
+    """Move the mouse over the object in the middle of the picture."""
+    page.mouse.move(0, 0)
+    page.wait_for_timeout(600)
+    page.locator("canvas").hover()
+    expect(page.locator(".hover-line")).to_be_visible()
+
+
 def test_a_random_sample_is_audited(browser: Browser, tmp_path: Path):
     with running_studio(demo_scene(), tmp_path / "project") as client:
         page = open_page(browser, client)
         expect(page.locator(".queue-row .confidence").first).not_to_be_empty()
+        hover(page)
+        expect(page.locator(".hover-line")).to_contain_text(CONFIDENCE)
         page.keyboard.press("v")
         note = page.locator(".audit-note")
         expect(note).to_contain_text("0 of 30 judged, drawn at random from 294")
@@ -105,6 +118,11 @@ def test_a_random_sample_is_audited(browser: Browser, tmp_path: Path):
         expect(page.locator(".queue-row .confidence").first).to_be_empty()
         expect(page.locator(".object-panel .share")).to_have_count(0)
         expect(page.locator(".object-panel")).not_to_contain_text("confidence")
+        expect(page.get_by_label("Color by").locator("option", has_text="Confidence")).to_have_count(0)
+        page.locator("#tab-facets").click()
+        expect(page.locator(".facets")).not_to_contain_text("Confidence")
+        hover(page)
+        expect(page.locator(".hover-line")).not_to_contain_text(CONFIDENCE)
         page.keyboard.press("Control+z")
         expect(note).to_contain_text("3 of 30 judged")
         page.locator("#tab-run").click()
@@ -114,4 +132,61 @@ def test_a_random_sample_is_audited(browser: Browser, tmp_path: Path):
         page.keyboard.press("v")
         expect(note).to_be_hidden()
         expect(page.locator(".queue-row .confidence").first).not_to_be_empty()
+        expect(page.locator(".facets")).to_contain_text("Confidence")
+        close_page(page)
+
+
+def test_what_the_filter_hides_is_not_decided(browser: Browser, stage: Path, tmp_path: Path):
+    with running_studio(stage, tmp_path / "project") as client:
+        page = open_page(browser, client)
+        page.locator(".queue-row", has_text="cup").first.click()
+        page.get_by_label("Filter objects").fill("Cup_2")
+        page.keyboard.press("Escape")
+        expect(page.locator(".member")).to_have_count(1)
+        expect(page.locator(".group-card header")).to_contain_text("1 of 1 ticked · 1 filtered out")
+        page.keyboard.press("b")
+        expect(page.get_by_role("dialog")).to_contain_text("Confirm 1 object")
+        page.keyboard.press("Escape")
+        page.keyboard.press("Enter")
+        expect(page.locator(".status-bar")).to_contain_text("1 of 5 decided · 4 groups open")
+        empty = page.locator(".review .empty")
+        expect(empty).to_have_text("No open object matches the filter; 4 groups open.")
+        page.locator(".search .chip").click()
+        expect(page.locator(".queue-row")).to_have_count(4)
+        states = [state["state"] for state in client.ask("api/states").json()["states"]]
+        assert Counter(states) == {"confirmed": 1, "suggested": 4}
+        close_page(page)
+
+
+def test_a_decision_without_an_answer_comes_back(browser: Browser, stage: Path, tmp_path: Path):
+    with running_studio(stage, tmp_path / "project") as client:
+        page = open_page(browser, client)
+        cups = page.locator(".queue-row", has_text="cup").first
+        saving, notices = page.locator(".status-bar .saving"), page.locator(".notices")
+        # First without the stream of changes, then without any answer.
+        gone = ["api/events"]
+        page.route("**/api/**", lambda route: route.abort() if gone[-1] in route.request.url else route.continue_())
+        page.reload()
+        expect(saving).to_contain_text("Offline")
+        expect(cups).to_be_visible()
+        gone.append("api/")
+        cups.click()
+        expect(page.locator(".member .thumbnail").first).to_have_text("not loaded")
+        page.keyboard.press("Space")
+        page.keyboard.press("c")
+        expect(notices).to_contain_text("Not saved: Cup_2 (the server does not answer")
+        expect(page.locator(".group-card header")).to_contain_text("1 of 2 ticked")
+        expect(page.locator(".queue-row")).to_have_count(4)
+        page.keyboard.press("r")
+        expect(saving).to_contain_text("Offline")
+        gone.append("nothing")
+        expect(notices).to_contain_text("Not saved while the server did not answer: Cup_2", timeout=20_000)
+        expect(saving).to_have_text("Not saved")
+        expect(page.locator(".member .thumbnail img")).to_have_count(2)
+        page.keyboard.press("c")
+        expect(saving).to_have_text("Saved")
+        states = [state["state"] for state in client.ask("api/states").json()["states"]]
+        assert Counter(states) == {"confirmed": 1, "suggested": 4}
+        # The browser reports each request that failed.
+        page.problems.clear()  # type: ignore[attr-defined]
         close_page(page)

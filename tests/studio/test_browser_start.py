@@ -185,3 +185,15 @@ def test_without_webgl_the_page_says_so_and_works(browser: Browser, stage: Path,
         expect(page.locator(".queue-row").first).to_be_visible()
         assert page.locator("canvas").count() == 0
         page.close()
+
+
+def test_a_new_key_in_the_address_opens_the_page(browser: Browser, stage: Path, tmp_path: Path) -> None:
+    with running_studio(stage, tmp_path / "project") as client:
+        page = browser.new_page()
+        page.goto(f"{client.address}#token=of-the-studio-before")
+        expect(page.get_by_role("alert")).to_have_text("This key is wrong.")
+        # Only the fragment differs, so that the browser itself loads nothing.
+        page.goto(f"{client.address}#token={KEY}")
+        expect(page.locator(".queue-row").first).to_be_visible()
+        assert KEY not in page.url
+        page.close()

@@ -1,3 +1,4 @@
+import { signal } from "@preact/signals";
 import { BufferAttribute, Matrix4, PlaneGeometry, Ray, Raycaster, Vector3 } from "three";
 import { describe, expect, it } from "vitest";
 import { ApiFailure, type Client } from "../src/api/client";
@@ -84,7 +85,7 @@ describe("thumbnails", () => {
       return new Blob(["png"]);
     };
     return {
-      cache: new ThumbnailCache({ blob } as unknown as Client, (object) => (object === 9 ? "box only" : "")),
+      cache: new ThumbnailCache({ blob } as unknown as Client, (object) => (object === 9 ? "box only" : ""), signal(0)),
       count: () => requests,
     };
   };

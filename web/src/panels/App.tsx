@@ -33,7 +33,7 @@ export function App({ store, firstPicture }: { store: Store; firstPicture: First
     [],
   );
   const thumbnails = useMemo(
-    () => new ThumbnailCache(store.client, (object) => missingPicture(store.model.data, object)),
+    () => new ThumbnailCache(store.client, (object) => missingPicture(store.model.data, object), store.connections),
     [store],
   );
   useEffect(() => {

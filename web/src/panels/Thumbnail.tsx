@@ -1,5 +1,6 @@
 /** Pictures of objects, loaded when they come into view and kept. */
 
+import type { ReadonlySignal } from "@preact/signals";
 import { createContext } from "preact";
 import { useContext, useEffect, useRef, useState } from "preact/hooks";
 import { ApiFailure, type Client } from "../api/client";
@@ -7,6 +8,8 @@ import type { ObjectIndex, SceneData } from "../api/types";
 
 /** The server renders one at a time, and browsers keep only 6 connections to it. */
 const MAX_REQUESTS = 2;
+
+const NOT_LOADED: Picture = { problem: "not loaded" };
 
 export type Picture = { url: string } | { problem: string };
 
@@ -16,10 +19,14 @@ export class ThumbnailCache {
   private readonly waiting: (() => void)[] = [];
   private running = 0;
 
-  /** @param missing why there is no picture of an object; empty if the server can render one. */
+  /**
+   * @param missing why there is no picture of an object; empty if the server can render one.
+   * @param connections counts the connections to the server: after each, a picture that was not loaded is asked again.
+   */
   constructor(
     private readonly client: Client,
     private readonly missing: (object: ObjectIndex) => string,
+    readonly connections: ReadonlySignal<number>,
   ) {}
 
   /** Returns the address of a picture, or why there is none. */
@@ -46,7 +53,7 @@ export class ThumbnailCache {
     const isRefused = error instanceof ApiFailure && error.status >= 400 && error.status < 500;
     if (isRefused) return { problem: "no geometry" };
     this.urls.delete(object);
-    return { problem: "not loaded" };
+    return NOT_LOADED;
   }
 
   private finish(resolve: () => void): void {
@@ -71,18 +78,28 @@ export function missingPicture({ limits, objects }: SceneData, object: ObjectInd
 
 export const Thumbnails = createContext<ThumbnailCache | null>(null);
 
+/** What was found for an object, and by which connection. */
+interface Found {
+  object: ObjectIndex;
+  connection: number;
+  picture: Picture;
+}
+
 export function Thumbnail({ object, label }: { object: ObjectIndex; label: string }) {
   const cache = useContext(Thumbnails);
   const host = useRef<HTMLDivElement>(null);
-  const [picture, setPicture] = useState<Picture | null>(null);
+  const connection = cache?.connections.value ?? 0;
+  const [found, setFound] = useState<Found | null>(null);
+  const isOutdated = found?.object !== object || (found.picture === NOT_LOADED && found.connection !== connection);
+  const picture = isOutdated ? null : found.picture;
   useEffect(() => {
-    setPicture(null);
+    if (!isOutdated) return;
     let isCurrent = true;
     const observer = new IntersectionObserver((entries) => {
       if (!entries.some((entry) => entry.isIntersecting)) return;
       observer.disconnect();
-      void cache?.get(object).then((found) => {
-        if (isCurrent) setPicture(found);
+      void cache?.get(object).then((loaded) => {
+        if (isCurrent) setFound({ object, connection, picture: loaded });
       });
     });
     if (host.current !== null) observer.observe(host.current);
@@ -90,7 +107,7 @@ export function Thumbnail({ object, label }: { object: ObjectIndex; label: strin
       isCurrent = false;
       observer.disconnect();
     };
-  }, [cache, object]);
+  }, [cache, object, connection, isOutdated]);
   return (
     <div class="thumbnail" ref={host}>
       {picture !== null && "url" in picture && <img src={picture.url} alt={label} />}
