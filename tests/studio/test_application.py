@@ -335,12 +335,14 @@ def test_other_pages_hear_that_objects_were_grounded_again(studio: Client):
 
 
 def test_pages_hear_that_the_graph_was_written(studio: Client):
-    decide(studio, [TABLE], "choose", **{"class": class_index(studio, "Cupboard")})
-    request = urllib.request.Request(f"{studio.address}api/events?since=1")
+    cupboard = {"class": class_index(studio, "Cupboard")}
+    request = urllib.request.Request(f"{studio.address}api/events?since=0")
     request.add_header("Authorization", f"Bearer {KEY}")
-    with urllib.request.urlopen(request, timeout=30) as stream:
+    with urllib.request.urlopen(request, timeout=60) as stream:
         assert stream.readline() == b": connected\n"
-        lines = [stream.readline().decode() for _ in range(3)]
-    assert lines[1] == "event: outputs\n"
-    assert json.loads(lines[2].removeprefix("data: ")) == studio.ask("api/states").json()["outputs"]
+        threading.Timer(0.2, lambda: decide(studio, [TABLE], "choose", **cupboard)).start()
+        while stream.readline() != b"event: outputs\n":
+            pass
+        outputs = json.loads(stream.readline().removeprefix(b"data: "))
+    assert outputs == studio.ask("api/states").json()["outputs"]
     assert "Cupboard" in studio.ask(f"api/object/{TABLE}").json()["turtle"]

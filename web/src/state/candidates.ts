@@ -37,7 +37,7 @@ export function pageOf(store: Store): Signal<ObjectPage | null> {
       (found) => {
         if (focusOf(store) === object) page.value = found;
       },
-      (error: unknown) => store.report(error),
+      (error: unknown) => store.reportLoading(error),
     );
   });
   return page;

@@ -251,8 +251,7 @@ export class Store {
       if (request !== this.queueRequests) return false;
       this.showQueue(queue, isFromOthers);
     } catch (error) {
-      // While the page is offline, the status line says so; it loads all again.
-      if (!this.isOffline.value) this.report(error);
+      this.reportLoading(error);
     }
     return true;
   }
@@ -298,8 +297,7 @@ export class Store {
       });
       await this.loadQueue();
     } catch (error) {
-      // While the page is offline, the status line says so, and the stream of changes tries again.
-      if (!this.isOffline.value) this.report(error);
+      this.reportLoading(error);
     }
   }
 
@@ -525,6 +523,11 @@ export class Store {
     if (page === this.page) return;
     this.notify(`${reviewer} has grounded the open objects again`);
     void this.reload();
+  }
+
+  /** Reports what could not be loaded; while the page is offline, the status line says so, and all is loaded again. */
+  reportLoading(error: unknown): void {
+    if (!this.isOffline.value) this.report(error);
   }
 
   report(error: unknown): void {
