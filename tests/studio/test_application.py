@@ -40,6 +40,13 @@ def states(studio: Client) -> list[str]:
     return [state["state"] for state in studio.ask("api/states").json()["states"]]
 
 
+def next_event(stream: Any, name: str) -> Any:
+    """Return the data of the next event with a name."""
+    while stream.readline().decode() != f"event: {name}\n":
+        pass
+    return json.loads(stream.readline().removeprefix(b"data: "))
+
+
 def test_the_scene_is_what_the_stage_holds(shared: Client):
     scene = shared.ask("api/scene").json()
     assert scene["title"] == "kitchen.usda"
@@ -239,8 +246,7 @@ def test_reviewers_see_each_other(studio: Client):
         assert stream.headers["content-type"].startswith("text/event-stream")
         assert stream.readline() == b": connected\n"
         threading.Timer(0.2, lambda: decide(studio, [TABLE], "confirm", "Bob", page="p1")).start()
-        lines = [stream.readline().decode() for _ in range(3)]
-    change = json.loads(lines[2].removeprefix("data: "))
+        change = next_event(stream, "change")
     assert (change["reviewer"], change["page"], change["version"]) == ("Bob", "p1", 1)
     assert (change["can_undo"], change["can_redo"]) == (True, False)
     assert change["states"][0]["state"] == "confirmed"
@@ -330,8 +336,7 @@ def test_other_pages_hear_that_objects_were_grounded_again(studio: Client):
     with urllib.request.urlopen(request, timeout=30) as stream:
         assert stream.readline() == b": connected\n"
         threading.Timer(0.2, lambda: studio.ask("api/reground", {"reviewer": "Ann", "page": "p"})).start()
-        lines = [stream.readline().decode() for _ in range(3)]
-    assert lines[1:] == ["event: suggestions\n", 'data: {"reviewer": "Ann", "page": "p"}\n']
+        assert next_event(stream, "suggestions") == {"reviewer": "Ann", "page": "p"}
 
 
 def test_pages_hear_that_the_graph_was_written(studio: Client):
@@ -341,8 +346,6 @@ def test_pages_hear_that_the_graph_was_written(studio: Client):
     with urllib.request.urlopen(request, timeout=60) as stream:
         assert stream.readline() == b": connected\n"
         threading.Timer(0.2, lambda: decide(studio, [TABLE], "choose", **cupboard)).start()
-        while stream.readline() != b"event: outputs\n":
-            pass
-        outputs = json.loads(stream.readline().removeprefix(b"data: "))
+        outputs = next_event(stream, "outputs")
     assert outputs == studio.ask("api/states").json()["outputs"]
     assert "Cupboard" in studio.ask(f"api/object/{TABLE}").json()["turtle"]
