@@ -176,6 +176,10 @@ describe("store", () => {
     expect(store.selection.value).toEqual([2]);
     store.filters.value = { ...store.filters.value, text: "" };
     expect(store.selection.value).toEqual([2, 1]);
+    // A member that was clicked and is then hidden is not decided about.
+    store.select([1]);
+    store.filters.value = { ...store.filters.value, text: "cup_2" };
+    expect([store.targets.value, focusOf(store)]).toEqual([[2], 2]);
     store.select([0]);
     store.filters.value = { ...store.filters.value, text: "cup_2" };
     expect(store.selection.value).toEqual([0]);

@@ -8,13 +8,9 @@ const pages = new WeakMap<Store, Signal<ObjectPage | null>>();
 
 /** Returns the object whose page is shown: the last selected one, else the focused member of the group. */
 export function focusOf(store: Store): ObjectIndex {
-  const { selection, group, member, drawer, isDrawerOpen } = store;
-  const current = group.value;
-  const focused = current?.objects[member.value];
-  const isReviewed = drawer.value === "review" && isDrawerOpen.value && focused !== undefined;
-  const selected = selection.value.at(-1);
-  if (isReviewed && (selected === undefined || current?.objects.includes(selected))) return focused;
-  return selected ?? -1;
+  const { selection, group, member, isGroupInFocus } = store;
+  const found = isGroupInFocus.value ? group.value?.objects[member.value] : selection.value.at(-1);
+  return found ?? -1;
 }
 
 /** Returns the page of the focused object; it follows the focus, the decisions and the graph that is written. */

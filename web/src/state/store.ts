@@ -138,21 +138,21 @@ export class Store {
   readonly group = computed<QueueGroup | null>(
     () => this.groups.value.find((group) => group.id === this.groupId.value) ?? this.groups.value[0] ?? null,
   );
+  /** All open members of the current group, whatever the filters. */
+  private readonly members = computed<readonly ObjectIndex[]>(
+    () => this.openGroups.value.find((group) => group.id === this.group.value?.id)?.objects ?? [],
+  );
   /** Number of members of the current group that the filters hide. */
-  readonly hiddenMembers = computed(() => {
-    const whole = this.openGroups.value.find((group) => group.id === this.group.value?.id);
-    return (whole?.objects.length ?? 0) - (this.group.value?.objects.length ?? 0);
-  });
+  readonly hiddenMembers = computed(() => this.members.value.length - (this.group.value?.objects.length ?? 0));
   /** The ticked members of the current group. */
   readonly ticked = computed<readonly ObjectIndex[]>(
     () => this.group.value?.objects.filter((object) => !this.excluded.value.has(object)) ?? [],
   );
   /** Whether the keys decide about the group, not about something selected outside it. */
   readonly isGroupInFocus = computed(() => {
-    const group = this.group.value;
     const selected = this.selection.value.at(-1);
-    if (this.drawer.value !== "review" || !this.isDrawerOpen.value || group === null) return false;
-    return selected === undefined || group.objects.includes(selected);
+    if (this.drawer.value !== "review" || !this.isDrawerOpen.value || this.group.value === null) return false;
+    return selected === undefined || this.members.value.includes(selected);
   });
   /** What a key decides about: the ticked members of the group, or else the selection. */
   readonly targets = computed<readonly ObjectIndex[]>(() =>
