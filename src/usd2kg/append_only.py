@@ -1,5 +1,6 @@
 """AppendOnlyFile: a file of lines that only grows and survives a crash."""
 
+import errno
 import os
 from contextlib import suppress
 from pathlib import Path
@@ -21,6 +22,7 @@ class AppendOnlyFile:
             OSError: it cannot be opened or cut.
         """
         # Unbuffered, so that a failed write leaves nothing to be written later.
+        self._path = path
         self._file = path.open("ab", buffering=0)
         if size < os.fstat(self._file.fileno()).st_size:
             self._file.truncate(size)
@@ -31,7 +33,11 @@ class AppendOnlyFile:
         Raises:
             OSError: the disk is full or the file is gone; what was written of the lines is removed.
         """
-        size = os.fstat(self._file.fileno()).st_size
+        opened = os.fstat(self._file.fileno())
+        size = opened.st_size
+        # Unix writes on to a file that was moved or deleted.
+        if not self._path.exists() or not os.path.samestat(opened, self._path.stat()):
+            raise FileNotFoundError(errno.ENOENT, "the file was moved or deleted while it was open", str(self._path))
         try:
             rest = memoryview(lines)
             while rest:

@@ -116,6 +116,20 @@ def test_labels_become_local_names(tmp_path: Path):
     assert "CoffeeTable" in names
 
 
+def test_one_name_below_two_classes_is_two_classes(tmp_path: Path):
+    tbox = make_tbox(make_class("Item"), make_class("Lamp", "Item"), make_class("Bin", "Item"))
+    path = tmp_path / "suggested.ttl"
+    said = (Proposal("Ann", "2026-01-05T10:00:00Z", ""),)
+    proposed = [
+        SuggestedClass(label, None, LAB + parent, (f"/Shop/{parent}",), said)
+        for label, parent in (("hall unit", "Lamp"), ("Hall-Unit", "Bin"), ("hall unit", "Lamp"))
+    ]
+    path.write_text(format_suggestions(proposed, tbox), encoding="utf-8")
+    parents = {cls.local_name: cls.parents for cls in load_tbox(path).classes}
+    assert (parents["HallUnit"], parents["HallUnit_2"]) == ((LAB + "Lamp",), (LAB + "Bin",))
+    assert "HallUnit_3" not in parents
+
+
 def test_decisions_of_people_count():
     scene = make_scene(make_object("/Shop/guitar"))
     found = ground(scene, SHOP, decisions={"/Shop/guitar": LAB + "Item"})

@@ -1,5 +1,7 @@
 """The studio's server over HTTP."""
 
+import csv
+import io
 import json
 import threading
 import time
@@ -145,6 +147,19 @@ def test_exports_are_current(studio: Client):
     for name in ("mapping.sssom.tsv", "decisions.sssom.tsv", "labels.usda", "objects.csv", "grounding.json"):
         assert "Cupboard" in studio.ask(f"api/export/{name}").body.decode(), name
     assert studio.ask("api/export/..%2f..%2fproject.json").status == 404
+
+
+def test_the_confidence_of_a_decision_is_not_that_of_the_suggestion(studio: Client):
+    def confidences() -> tuple[float | None, str]:
+        rows = csv.DictReader(io.StringIO(studio.ask("api/export/objects.csv").body.decode()))
+        row = next(row for row in rows if row["path"] == "/Kitchen/Zxqv")
+        return studio.ask("api/states").json()["states"][THING]["confidence"], row["confidence"]
+
+    suggested = confidences()
+    decide(studio, [THING], "choose", **{"class": class_index(studio, "Cupboard")})
+    assert confidences() == (1.0, "1.0000") != suggested
+    decide(studio, [THING], "no-class")
+    assert confidences() == (None, "")
 
 
 def test_the_queue_groups_what_one_decision_settles(studio: Client):

@@ -146,6 +146,22 @@ def test_a_failed_write_changes_nothing(tmp_path: Path, home_tbox: TBox, monkeyp
     journal.close()
 
 
+@pytest.mark.skipif(sys.platform == "win32", reason="Windows keeps open files")
+@pytest.mark.parametrize("is_replaced", [False, True])
+def test_a_file_that_was_taken_away_is_an_error(tmp_path: Path, home_tbox: TBox, is_replaced: bool):
+    journal, review = open_journal(tmp_path, home_tbox)
+    decide(journal, review, ["/A"], cup(home_tbox))
+    journal.path.rename(tmp_path / "elsewhere.tsv")
+    if is_replaced:
+        journal.path.write_text("")
+    with pytest.raises(
+        OutputError, match=r"the decision is not saved \(the file was moved or deleted while it was open\)"
+    ):
+        decide(journal, review, ["/B"], cup(home_tbox))
+    assert review.verdict("/B") == OPEN
+    journal.close()
+
+
 def test_a_file_that_is_no_journal_is_refused(tmp_path: Path, home_tbox: TBox):
     (tmp_path / "decisions.sssom.tsv").write_text("path\tclass\n/A\tCup\n")
     with pytest.raises(GroundingError, match="line 1 has no column prim_path; expected the decisions of a studio"):

@@ -128,8 +128,13 @@ def _triples(suggested: Sequence[SuggestedClass], tbox: TBox, base: str) -> Iter
         yield ontology, OWL.imports, ox.NamedNode(tbox.ontology_iri)
     for annotation in _ANNOTATIONS:
         yield annotation, RDF.type, OWL.AnnotationProperty
+    parents: dict[str, list[ClassIRI]] = {}
     for one in suggested:
-        node = ox.NamedNode(f"{base}#{_class_name(one.label)}")
+        # Two people may mean different things by one name: a unit of furniture and one of lights.
+        above = parents.setdefault(_class_name(one.label), [])
+        above += [] if one.parent in above else [one.parent]
+        number = above.index(one.parent) + 1
+        node = ox.NamedNode(f"{base}#{_class_name(one.label)}{f'_{number}' if number > 1 else ''}")
         yield node, RDF.type, OWL.Class
         yield node, RDFS.label, text(one.label)
         yield node, RDFS.subClassOf, ox.NamedNode(one.parent)

@@ -80,7 +80,7 @@ def _objects(session: StudioSession) -> bytes:
         suggested = session.tbox.by_iri.get(state.prediction.class_iri or "")
         concept = session.suggestions.concepts.get(state.prediction.concept or "")
         box = obj.own_box or obj.box
-        confidence = state.prediction.confidence
+        confidence = state.confidence
         writer.writerow(
             (
                 *(obj.prim_path, obj.display_name or obj.name),

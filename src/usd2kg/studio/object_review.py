@@ -54,6 +54,13 @@ class ObjectReview:
     verdict: Verdict
     is_conflict: bool
 
+    @property
+    def confidence(self) -> float | None:
+        """The confidence of the current class: 1 for a person's; None without a class."""
+        if self.verdict.kind is VerdictKind.CLASS:
+            return 1.0
+        return None if self.class_iri is None else self.prediction.confidence
+
 
 def state_of(prediction: Prediction, review: ReviewState) -> ObjectReview:
     """Return the state of the object of a prediction."""

@@ -129,7 +129,7 @@ def state_json(state: ObjectReview, indices: PageIndices) -> dict[str, Any]:
         "object": indices.object(state.prim_path),
         "state": state.status.value,
         "class": indices.class_(state.class_iri),
-        "confidence": prediction.confidence,
+        "confidence": state.confidence,
         "suggested": indices.class_(prediction.class_iri),
         "concept": indices.concept(prediction.concept),
         "reviewer": verdict.reviewer or (before.reviewer if before is not None else ""),
