@@ -20,6 +20,17 @@ class TestModelStrings:
         with pytest.raises(GroundingError, match="model 'openai:m@…': no host and port in its URL"):
             make_client(f"openai:m@{url}", environment=KEYS)
 
+    @pytest.mark.parametrize("url", ["127.0.0.1:8000/v1", "gpu.lab", "HTTP//h/v1", "me:hunter2x@h:80/v1", "ftp://h"])
+    @pytest.mark.parametrize("provider", ["openai", "google", "anthropic", "azure"])
+    def test_rejects_a_url_without_scheme_instead_of_asking_the_provider(self, provider: str, url: str):
+        with pytest.raises(GroundingError) as caught:
+            make_client(f"{provider}:m@{url}", environment=KEYS)
+
+        assert str(caught.value) == (
+            f"model '{provider}:m@…': no http:// or https:// after the @; expected google:NAME, anthropic:NAME or "
+            "openai:NAME, optionally followed by @http://HOST:PORT/v1, azure:DEPLOYMENT or bedrock:MODEL"
+        )
+
     @pytest.mark.parametrize("url", ["http://me:hunter2x@h/v1", "http://hunter2x@h/v1", "https://h/v1?key=hunter2x"])
     def test_rejects_credentials_in_a_url_without_showing_them(self, url: str):
         with pytest.raises(GroundingError, match="put the key into OPENAI_API_KEY") as caught:

@@ -83,14 +83,20 @@ def parse_model_reference(model: str) -> ModelReference:
     """Return the parts of a model string.
 
     Raises:
-        GroundingError: the provider is unknown, the name is missing, or the URL is malformed or contains credentials.
+        GroundingError: the provider is unknown, the name is missing, or the URL has no scheme, is malformed or contains
+            credentials.
     """
     provider, _, rest = model.partition(":")
-    # A model name may contain an @; a URL begins with its scheme.
+    # A model name may contain an @ if a URL follows it; the URL begins with its scheme.
     at = max(rest.find("@http://"), rest.find("@https://"))
     name, url = (rest, None) if at < 0 else (rest[:at], rest[at + 1 :].rstrip("/"))
     if provider not in KEY_VARIABLES or not name or any(map(str.isspace, model)):
         raise GroundingError(f"model '{Redactor([])(model)}': no known provider and name; {_EXPECTED}")
+    if url is None and "@" in name:
+        # No service of a provider has such a name. Its own URL would get prompts and key that are meant for the server.
+        raise GroundingError(
+            f"model '{provider}:{name.partition('@')[0]}@…': no http:// or https:// after the @; {_EXPECTED}"
+        )
     if url is not None:
         _check_url(provider, name, url)
     return ModelReference(model, provider, name, url or PROVIDER_URLS.get(provider, ""), url is not None)
