@@ -180,11 +180,12 @@ def test_reproduce_writes_reports_and_resumes(run, room: Path, gold: Path, tmp_p
     omit_png_and_pdf(monkeypatch)
     matrix = tmp_path / "matrix.toml"
     matrix.write_text(
-        f'title = "one room"\ngrounders = ["lexical", "dictionary"]\nregimes = ["semantic", "opaque"]\n'
+        f'title = "one room"\nrepeats = 2\ngrounders = ["lexical", "dictionary"]\nregimes = ["semantic", "opaque"]\n'
         f'[[scene]]\nname = "room"\npath = "{room}"\ngold = "{gold}"\n'
     )
     done = run("eval", "reproduce", matrix, "-o", tmp_path / "out")
     assert done.code == 0
+    assert "lexical, dictionary: run once instead of 2 times, since the answers are always the same\n" in done.err
     assert "[4/4] room, dictionary, opaque: EMA 0.0" in done.err
     for name in ("report.md", "report.tex", "report.html", "results.csv", "results.json"):
         assert str(tmp_path / "out" / name) in done.out

@@ -1,15 +1,19 @@
 """Run matrices: reading, running, and resuming from stored answers."""
 
+import json
 from collections.abc import Callable
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
 
-from usd2kg.errors import EvaluationError
+from tests.grounding.llm.servers import openai_reply, serve
+from usd2kg.errors import EvaluationError, GroundingError
 from usd2kg.evaluation import read_matrix, run_matrix
 from usd2kg.evaluation.matrix import OWN_ABLATION, STUDY_ABLATION
 from usd2kg.grounding import NamingRegime
 from usd2kg.grounding.lexical.grounder import LexicalGrounder
+from usd2kg.grounding.llm.factory import LLMSettings
 
 SCENE = """
 def Xform "World" {
@@ -38,10 +42,46 @@ def matrix(tmp_path: Path, write_stage: Callable[..., Path]) -> Path:
     return path
 
 
-def test_cells_are_the_product_of_conditions_and_repeats(matrix: Path) -> None:
-    plan = read_matrix(matrix)
-    cells = [cell for cell in plan.cells() if cell.scene.name == "room"]
-    assert [(c.condition, c.repeat) for c in cells] == [("semantic", 1), ("semantic", 2), ("opaque", 1), ("opaque", 2)]
+def test_cells_are_the_product_of_conditions_and_repeats_of_language_models(matrix: Path) -> None:
+    matrix.write_text(matrix.read_text().replace('["lexical"]', '["lexical", "llm-A:openai:m"]'))
+    cells = [cell for cell in read_matrix(matrix).cells() if cell.scene.name == "room"]
+    assert [(c.grounder, c.condition, c.repeat) for c in cells] == [
+        ("lexical", "semantic", 1),
+        ("lexical", "opaque", 1),
+        ("llm-A:openai:m", "semantic", 1),
+        ("llm-A:openai:m", "semantic", 2),
+        ("llm-A:openai:m", "opaque", 1),
+        ("llm-A:openai:m", "opaque", 2),
+    ]
+
+
+def test_a_repeat_draws_samples_of_its_own(matrix: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("OPENAI_API_KEY", "sk-x")
+    settings = LLMSettings("", completions=tmp_path / "said.sqlite", temperature=0.7)
+    said = [openai_reply(json.dumps({"1": {"class": name}})) for name in ("Table", "Table", "DesignedChair", "Table")]
+    with serve(*said) as server:
+        name = f"llm-A:openai:m@{server.url}/v1"
+        text = matrix.read_text().replace('["lexical"]', f'["{name}"]').replace(', "opaque"]', "]")
+        matrix.write_text(text)
+        plan = read_matrix(matrix)
+        (result,) = run_matrix(plan, tmp_path / "out", settings=replace(settings, concurrency=1))
+        (again,) = run_matrix(plan, tmp_path / "out", settings=settings)
+        asked = [request.body["seed"] for request in server.received]
+    assert asked == [0, 0, 1, 1]
+    assert [cell.evaluation.summary.ema for cell in result.cells] == [50.0, 100.0]
+    assert all(cell.was_stored for cell in again.cells)
+    assert [cell.evaluation.scores for cell in again.cells] == [cell.evaluation.scores for cell in result.cells]
+
+
+def test_rejects_repeats_at_temperature_0(matrix: Path, tmp_path: Path) -> None:
+    matrix.write_text(matrix.read_text().replace('["lexical"]', '["llm-A:openai:m@http://localhost:1/v1"]'))
+    settings = LLMSettings("", completions=tmp_path / "said.sqlite")
+    with pytest.raises(GroundingError) as caught:
+        run_matrix(read_matrix(matrix), tmp_path / "out", settings=settings)
+    assert str(caught.value) == (
+        "repeat 2 of openai:m@http://localhost:1/v1 at temperature 0 has the answers of the first; expected a "
+        "--temperature above 0, or one repeat"
+    )
 
 
 def test_ablation_adds_the_studys_conditions_and_ours(matrix: Path) -> None:
@@ -66,29 +106,29 @@ def test_reuses_stored_answers_unless_refreshed(matrix: Path, tmp_path: Path, mo
     monkeypatch.setattr(LexicalGrounder, "ground_views", counting)
     plan = read_matrix(matrix)
     (first,) = run_matrix(plan, tmp_path / "out")
-    assert asked == [2, 2, 2, 2]
+    assert asked == [2, 2]
     assert first.cells[0].evaluation.summary.ema == 100.0
     (again,) = run_matrix(plan, tmp_path / "out")
-    assert asked == [2, 2, 2, 2]
+    assert asked == [2, 2]
     assert all(cell.was_stored for cell in again.cells)
     assert [c.evaluation.scores for c in again.cells] == [c.evaluation.scores for c in first.cells]
     run_matrix(plan, tmp_path / "out", refresh=True)
-    assert len(asked) == 8
+    assert len(asked) == 4
 
 
 def test_resumes_an_interrupted_run(matrix: Path, tmp_path: Path) -> None:
     plan = read_matrix(matrix)
     seen = []
 
-    def stop_after_two(result) -> None:  # type: ignore[no-untyped-def]
+    def stop_after_one(result) -> None:  # type: ignore[no-untyped-def]
         seen.append(result.was_stored)
-        if len(seen) == 2:
+        if len(seen) == 1:
             raise KeyboardInterrupt
 
     with pytest.raises(KeyboardInterrupt):
-        run_matrix(plan, tmp_path / "out", progress=stop_after_two)
+        run_matrix(plan, tmp_path / "out", progress=stop_after_one)
     (result,) = run_matrix(plan, tmp_path / "out")
-    assert [cell.was_stored for cell in result.cells] == [True, True, False, False]
+    assert [cell.was_stored for cell in result.cells] == [True, False]
 
 
 def test_rescores_stored_answers_when_gold_changes(matrix: Path, tmp_path: Path) -> None:

@@ -31,7 +31,9 @@ class TestMainTable:
         # EMA 50 and 25: mean 37.5, deviation 17.7; HF1 .867 and .25: mean .558, deviation .436.
         table = result_tables.main_table(tiny(repeats=(SECOND,)))
         assert table.rows[0][1] == "38 ± 18 / .56 ± .44 (38 ± 18)"
-        assert table.note == "Mean ± standard deviation of 2 repeats; intervals are those of the first repeat."
+        assert table.note == (
+            "Mean ± standard deviation of 2 repeats of each language model; intervals are those of the first repeat."
+        )
 
 
 def test_detail_table():

@@ -92,6 +92,8 @@ class Matrix:
     grounders: tuple[str, ...]
     regimes: tuple[NamingRegime, ...]
     repeats: int
+    """Runs of each language model under each condition, with samples of their own. Other grounders run once, since they
+    always give the same answers."""
     ablation: Ablation = field(default_factory=dict)
     """Ablation conditions; empty for none."""
     ablated: tuple[str, ...] = ()
@@ -118,8 +120,9 @@ class Matrix:
     def _repeat(
         self, scene: SceneSpec, grounder: str, conditions: Iterable[_Condition], cascade: float | None = None
     ) -> Iterator[Cell]:
+        repeats = self.repeats if is_llm_name(grounder) else 1
         for name, regime, evidence in conditions:
-            for repeat in range(1, self.repeats + 1):
+            for repeat in range(1, repeats + 1):
                 yield Cell(scene, grounder, name, regime, evidence, repeat, cascade)
 
 

@@ -23,19 +23,21 @@ class MatrixGrounders:
     """The grounders of a matrix by name, with open connections."""
 
     offline: Mapping[str, Grounder]
-    models: "Mapping[str, LLMGrounder]"
+    models: "Mapping[tuple[str, int], LLMGrounder]"
+    """Name and repeat → language model; the repeats of a model share its client."""
     price: str
     """The user's token price, and whether it is for batch jobs; empty for list prices."""
 
     def grounder(self, cell: Cell) -> Grounder:
         """Return the grounder of a cell."""
-        if cell.cascade is not None:
-            return CascadeGrounder(self.offline[_FIRST_TIER], self.models[cell.grounder], cell.cascade)
-        return self.models.get(cell.grounder) or self.offline[cell.grounder]
+        model = self.model(cell)
+        if model is None:
+            return self.offline[cell.grounder]
+        return model if cell.cascade is None else CascadeGrounder(self.offline[_FIRST_TIER], model, cell.cascade)
 
     def model(self, cell: Cell) -> "LLMGrounder | None":
         """Return the language model of a cell; None if it has none."""
-        return self.models.get(cell.grounder)
+        return self.models.get((cell.grounder, cell.repeat))
 
 
 @contextmanager
@@ -54,19 +56,22 @@ def open_grounders(
         reporting: callbacks for the progress of batch jobs; None for log messages.
 
     Raises:
-        GroundingError: an extra, a key or a price is missing, or the cache cannot be opened.
+        GroundingError: an extra, a key or a price is missing, the cache cannot be opened, or language models are to be
+            repeated at temperature 0.
     """
     names = dict.fromkeys(name for name in matrix.grounders if name not in matrix.language_models)
     if matrix.cascades:
         names.setdefault(_FIRST_TIER)
     offline = {name: make_grounder(name) for name in names}
     with ExitStack() as stack:
-        models: Mapping[str, LLMGrounder] = {}
+        models: dict[tuple[str, int], LLMGrounder] = {}
         if matrix.language_models:
             from usd2kg.grounding.llm.factory import LLMSettings, open_llm_grounders  # noqa: PLC0415 - slow to import
 
             settings = settings or LLMSettings("")
-            models = stack.enter_context(open_llm_grounders(matrix.language_models, settings, progress, reporting))
+            opened = stack.enter_context(open_llm_grounders(matrix.language_models, settings, progress, reporting))
+            for name, model in opened.items():
+                models |= {(name, repeat): model.repeated(repeat) for repeat in range(1, matrix.repeats + 1)}
         price = (settings.price or "") if settings is not None else ""
         if settings is not None and settings.is_batched:
             price += " in batch jobs"

@@ -236,7 +236,6 @@ def _key(cell: Cell, inputs: _Inputs, grounder: Grounder, price: str) -> str:
         json.dumps(dict(grounder.settings), sort_keys=True),
         cell.regime.value,
         evidence,
-        str(cell.repeat),
         price,
         _code_digest(),
     ]

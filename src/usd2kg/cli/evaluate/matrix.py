@@ -11,7 +11,7 @@ from typer import Argument, Option
 from usd2kg.cli.evaluate.study import StudyOptions, plan_study_matrix, study_text
 from usd2kg.cli.options.bundles import expand_bundles
 from usd2kg.cli.options.common import ReportFolder
-from usd2kg.cli.options.model import ObjectsPerPrompt, RequestLimits, Thinking
+from usd2kg.cli.options.model import ObjectsPerPrompt, RequestLimits, Temperature, Thinking
 from usd2kg.cli.output import Progress, count_noun, emit, notify
 from usd2kg.errors import EvaluationError
 
@@ -31,6 +31,7 @@ def reproduce_command(
     ] = None,
     objects_per_prompt: ObjectsPerPrompt = None,
     thinking: Thinking = False,
+    temperature: Temperature = None,
     output: ReportFolder = Path("results"),
     refresh: Annotated[
         bool, Option("--refresh", help="Compute every result again; default: use stored results.")
@@ -52,12 +53,17 @@ def reproduce_command(
     for scene in plan.scenes:
         if scene.missing is not None:
             notify(f"{scene.name} is skipped: {scene.missing} does not exist")
+    once = [name for name in plan.grounders if name not in plan.language_models]
+    if plan.repeats > 1 and once:
+        notify(f"{', '.join(once)}: run once instead of {plan.repeats} times, since the answers are always the same")
     total = sum(1 for cell in plan.cells() if cell.scene.missing is None)
     with Progress() as progress:
         results = evaluation.run_matrix(
             plan,
             output,
-            settings=_settings(limits, study, objects_per_prompt, thinking) if plan.language_models else None,
+            settings=_settings(limits, study, objects_per_prompt, thinking, temperature)
+            if plan.language_models
+            else None,
             refresh=refresh,
             progress=_report(total, progress),
             model_progress=progress.update,
@@ -91,13 +97,18 @@ def _plan(matrix: Path | None, study: StudyOptions) -> "Matrix":
 
 
 def _settings(
-    limits: RequestLimits, study: StudyOptions, objects_per_prompt: int | None, thinking: bool
+    limits: RequestLimits,
+    study: StudyOptions,
+    objects_per_prompt: int | None,
+    thinking: bool,
+    temperature: float | None,
 ) -> "LLMSettings":
     """Return the settings of all language models of a matrix."""
     return replace(
         limits.settings(""),
         objects_per_prompt=objects_per_prompt,
         is_thinking=thinking,
+        temperature=temperature,
         # The study asks about each prim.
         is_each_object=study.study,
     )

@@ -21,6 +21,7 @@ __all__ = [
     "ObjectsPerPrompt",
     "RequestLimits",
     "RequestOptions",
+    "Temperature",
     "Thinking",
 ]
 
@@ -44,6 +45,10 @@ ObjectsPerPrompt = Annotated[
         min=1,
         help="Objects or concepts per prompt; default: 1, or 40 for llm-concept.",
     ),
+]
+Temperature = Annotated[
+    float | None,
+    Option("--temperature", min=0, max=2, help="Sampling temperature; default: 0, or 0.7 with several samples."),
 ]
 Thinking = Annotated[bool, Option("--thinking", help="Turn on the model's own reasoning.")]
 
@@ -193,10 +198,7 @@ class ModelOptions(OptionBundle):
     first_sample: Annotated[
         int, Option("--first-sample", min=0, help="Number of the first sample, to draw new samples in repeated runs.")
     ] = 0
-    temperature: Annotated[
-        float | None,
-        Option("--temperature", min=0, max=2, help="Sampling temperature; default: 0, or 0.7 with several samples."),
-    ] = None
+    temperature: Temperature = None
     calibration: Annotated[
         Path | None,
         Option(

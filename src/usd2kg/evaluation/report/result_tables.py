@@ -213,7 +213,8 @@ def _repeats_note(result: SceneResult) -> str:
     return (
         ""
         if repeats == 1
-        else f"Mean ± standard deviation of {repeats} repeats; intervals are those of the first repeat."
+        else f"Mean ± standard deviation of {repeats} repeats of each language model; intervals are those of the first "
+        "repeat."
     )
 
 

@@ -5,6 +5,7 @@ import time
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from concurrent.futures import ThreadPoolExecutor, as_completed
 from contextlib import AbstractContextManager
+from copy import copy
 from dataclasses import dataclass, replace
 from typing import NamedTuple
 
@@ -142,6 +143,23 @@ class LLMGrounder:
     def collect_deferred(self) -> None:
         """Wait for the submitted batch jobs."""
         self._client.collect_deferred()
+
+    def repeated(self, repeat: int) -> "LLMGrounder":
+        """Return a grounder with the same client that draws the samples of a repeat; the first, 1, is this one.
+
+        Raises:
+            GroundingError: there is nothing to draw, since all samples are the same.
+        """
+        if repeat == 1:
+            return self
+        if self._options.temperature == 0:
+            raise GroundingError(
+                f"repeat {repeat} of {self._client.model} at temperature 0 has the answers of the first; expected a "
+                "--temperature above 0, or one repeat"
+            )
+        other = copy(self)
+        other._first_sample += (repeat - 1) * self._samples
+        return other
 
     @property
     def settings(self) -> Mapping[str, str]:
