@@ -55,7 +55,7 @@ def test_objects_that_the_selection_misses_are_wrong_end_to_end(run, write_stage
     assert re.search(r"HF1\) +1\.000 .*\n  end to end +0\.500 ", text)
     assert run("eval", "run", scene, "--gold", gold, "-o", tmp_path / "run.json").code == 0
     compared = run("eval", "compare", tmp_path / "run.json", tmp_path / "run.json")
-    assert compared.out.startswith("A  100.0 % (50.0 % end to end)  lexical, semantic names")
+    assert compared.out.startswith(f"A  100.0 % (50.0 % end to end)  {tmp_path}/run.json: lexical, semantic")
 
 
 def test_run_prints_wrong_answers_with_reasons(run, room: Path, gold: Path) -> None:
@@ -123,6 +123,59 @@ def test_compare_rejects_runs_on_different_ontologies(run, room: Path, gold: Pat
     done = run("eval", "compare", tmp_path / "a.json", tmp_path / "b.json")
     assert done.code == 2
     assert "used different ontologies" in done.err
+
+
+def test_compare_rejects_runs_with_different_gold_labels(run, room: Path, gold: Path, tmp_path: Path) -> None:
+    run("eval", "run", room, "--gold", gold, "-o", tmp_path / "a.json")
+    gold.write_text(GOLD.replace("Table_1,Table", "Table_1,Sofa").replace("Bowl,Cup", "Bowl,"), encoding="utf-8")
+    run("eval", "run", room, "--gold", gold, "-o", tmp_path / "b.json")
+    done = run("eval", "compare", tmp_path / "a.json", tmp_path / "b.json")
+    assert (done.code, done.out) == (2, "")
+    assert done.err == (
+        f"usd2kg: {tmp_path}/a.json and {tmp_path}/b.json have different gold labels for 1 of 3 objects, /Room/Table_1 "
+        "for one: Table and Sofa; evaluate both with the same gold file\n"
+    )
+
+
+def test_compare_rejects_runs_on_different_scenes(run, room: Path, gold: Path, tmp_path: Path) -> None:
+    other = tmp_path / "other.usda"
+    other.write_text(room.read_text("utf-8").replace("Apple", "Pear"), encoding="utf-8")
+    for name, scene in (("a.json", room), ("b.json", other)):
+        assert run("eval", "run", scene, "--gold", gold, "-o", tmp_path / name).code == 0
+    done = run("eval", "compare", tmp_path / "a.json", tmp_path / "b.json")
+    assert (done.code, done.out) == (2, "")
+    assert f"used different scenes, or versions of a scene: {room} and {other}; compare runs on the same" in done.err
+
+
+def test_compare_counts_the_objects_of_one_run_only(run, room: Path, gold: Path, tmp_path: Path) -> None:
+    run("eval", "run", room, "--gold", gold, "-o", tmp_path / "a.json")
+    gold.write_text("path,class\n/Room/Table_1,Table\n/Room/Apple,Bowl\n", encoding="utf-8")
+    run("eval", "run", room, "--gold", gold, "-o", tmp_path / "b.json")
+    files = tmp_path / "a.json", tmp_path / "b.json"
+    data = json.loads(run("eval", "compare", *files, "--json").out)
+    assert (data["n"], data["unpaired_first"], data["unpaired_second"]) == (1, 2, 1)
+    said = "left out, since only one run has gold labels for them: 2 of A, 1 of B\n"
+    assert said in run("eval", "compare", *files).out
+
+
+def test_compare_names_files_and_differing_settings(run, room: Path, gold: Path, tmp_path: Path) -> None:
+    run("eval", "run", room, "--gold", gold, "-o", tmp_path / "a.json")
+    run("eval", "run", room, "--gold", gold, "--abstain", "-o", tmp_path / "b.json")
+    files = tmp_path / "a.json", tmp_path / "b.json"
+    first, second = run("eval", "compare", *files).out.splitlines()[:2]
+    assert f"  {files[0]}: lexical, semantic names, evidence " in first
+    assert first.endswith(", decision default")
+    assert second.endswith(", decision hierarchical")
+    data = json.loads(run("eval", "compare", *files, "--json").out)
+    assert [data[key]["file"] for key in ("first", "second")] == [str(file) for file in files]
+    assert data["second"]["run"].endswith(", decision hierarchical")
+
+
+def test_compare_reads_runs_of_every_grounder(run, room: Path, gold: Path, tmp_path: Path) -> None:
+    for grounder in ("embedding", "volume"):
+        run("eval", "run", room, "--gold", gold, "--grounder", grounder, "-o", tmp_path / f"{grounder}.json")
+    done = run("eval", "compare", tmp_path / "embedding.json", tmp_path / "volume.json")
+    assert done.code == 0, done.err
 
 
 def test_annotate_writes_a_template_that_reads_back(run, room: Path, tmp_path: Path) -> None:

@@ -412,6 +412,17 @@ def test_scores_tiers_and_calibrates_a_model(run: Run, write_stage, tmp_path: Pa
     assert "fitted on 24 answers" in fitted.err
     again = run("ground", scene, *model, "--replay", "--calibration", "calibration.json", "--format", "json")
     assert json.loads(again.out)["is_calibrated"] is True
+    assert re.fullmatch(r"\S+ [+-]\S+ logit", json.loads(again.out)["settings"]["calibration"])
+    other = run("ground", scene, *model, "--replay", "--calibration", "calibration.json", "--shortlist", "3")
+    assert (other.code, other.out) == (2, "")
+    assert "calibration.json: was fitted for other confidences (classes flat, model openai:test@" in other.err
+    assert ", shortlist 3, strategy A, temperature 0, thinking false); fit a calibration on such runs with" in other.err
+    for number, score in enumerate(data["scores"]):
+        score["confidence"] = 0.6 if number % 2 == 0 else 0.9
+    Path("reversed.json").write_text(json.dumps(data), "utf-8")
+    negative = run("eval", "calibrate", "reversed.json", "-o", "negative.json")
+    assert negative.code == 0
+    assert re.search(r"the slope is -\S+: answers of a higher confidence are not more often right, so", negative.err)
     Path("other.json").write_text(json.dumps({**data, "settings": {**data["settings"], "model": "openai:other"}}))
     mixed = run("eval", "calibrate", "alone.json", "other.json", "-o", "mixed.json")
     assert (mixed.code, "llm, openai:other, strategy A, semantic names" in mixed.err) == (2, True)

@@ -2,6 +2,7 @@
 
 import math
 import random
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
@@ -9,7 +10,33 @@ import pytest
 from tests.evaluation.records import score
 from usd2kg.errors import EvaluationError, GroundingError
 from usd2kg.evaluation import Score, fit_scaling
-from usd2kg.grounding import PlattScaling, read_scaling
+from usd2kg.evaluation.calibrate import model_answers
+from usd2kg.evaluation.stored import StoredRun
+from usd2kg.grounding import PlattScaling, Status, read_scaling
+from usd2kg.grounding.platt_scaling import describe_settings
+
+SETTINGS = {"regime": "semantic", "evidence": "name", "model": "openai:m", "strategy": "A", "temperature": "0"}
+
+
+def stored(
+    name: str = "a.json", scene: str = "1", *, grounder: str = "llm", calibrated: bool = False, **settings: str
+) -> StoredRun:
+    """Return a run with an answer of the model and a decision of a person; an empty setting is left out."""
+    decided = replace(score("Bowl", "Bowl", 1.0, name="decided"), status=Status.REVIEWED)
+    own = {key: value for key, value in (SETTINGS | settings).items() if value}
+    return StoredRun(
+        source=name,
+        scene=f"{scene}.usda",
+        scene_hash=scene,
+        ontology_hash="sha256:0",
+        grounder=grounder,
+        regime=own["regime"],
+        evidence=own["evidence"],
+        settings=own,
+        is_calibrated=calibrated,
+        scores=(score("Cup", "Cup", 0.7), decided),
+        missed=frozenset(),
+    )
 
 
 def scores(confidences: list[float], right: list[bool]) -> list[Score]:
@@ -57,3 +84,42 @@ def test_reads_scaling_files_and_rejects_malformed_ones(tmp_path: Path):
     path.write_text("{}", "utf-8")
     with pytest.raises(GroundingError, match="cannot be read as a calibration"):
         read_scaling(path)
+
+
+def test_uses_only_the_answers_of_the_model():
+    answers = model_answers([stored(), stored("b.json", "2"), stored("c.json", first_sample="1")])
+    assert [(answer.name, answer.confidence) for answer in answers] == [("a", 0.7)] * 3
+
+
+@pytest.mark.parametrize(
+    ("runs", "said"),
+    [
+        (
+            [stored(grounder="lexical", model="", strategy="", calibrated=True)],
+            r"a\.json: is a run of lexical; expected a run of a language model",
+        ),
+        (
+            [stored(grounder="cascade", first="lexical", second="llm", min_confidence="0.8")],
+            r"a\.json: is a run of a cascade, with answers of lexical; expected .* alone, without --cascade",
+        ),
+        ([stored(calibrated=True)], r"a\.json: its confidences are calibrated already; .* without --calibration"),
+        (
+            [stored(), stored("b.json", "2", shortlist="3")],
+            r"runs of different grounders: .*, shortlist 3; .*, shortlist default; expected runs of one",
+        ),
+        ([stored(), stored("b.json", "2", regime="opaque")], r"runs of different grounders: .* opaque names"),
+        (
+            [stored(), stored("b.json")],
+            r"a\.json and b\.json: both have an answer about /w/a of 1\.usda; expected each object once",
+        ),
+    ],
+)
+def test_rejects_runs_that_are_not_separate_answers_of_one_model(runs: list[StoredRun], said: str):
+    with pytest.raises(EvaluationError, match=said):
+        model_answers(runs)
+
+
+def test_a_calibration_is_for_the_settings_of_the_model_not_of_the_run():
+    described = describe_settings({**SETTINGS, "first_sample": "3", "calibration": "0 +1 logit"})
+    assert described == "model openai:m, strategy A, temperature 0"
+    assert PlattScaling(-0.25, 1.5, "", 9).formula == "-0.25 +1.5 logit"

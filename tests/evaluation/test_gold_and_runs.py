@@ -108,6 +108,7 @@ def test_reads_back_every_score_of_a_result_file(tmp_path: Path) -> None:
     run = read_run(path)
     assert run.scores == evaluation.scores
     assert run.description == "fake, opaque names, evidence geometry"
+    assert (run.scene, run.scene_hash, run.grounder, run.is_calibrated) == ("s.usda", "sha256:1", "fake", False)
 
 
 @pytest.mark.parametrize("text", ["", "[]", '{"scores": []}', "not json"])

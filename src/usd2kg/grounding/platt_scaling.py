@@ -2,15 +2,18 @@
 
 import json
 import math
+from collections.abc import Mapping
 from dataclasses import asdict, dataclass
 from pathlib import Path
 
 from usd2kg.errors import GroundingError
 from usd2kg.grounding.settings import PLATT_SCALING
 
-__all__ = ["PlattScaling", "logit", "read_scaling"]
+__all__ = ["PlattScaling", "describe_settings", "logit", "read_scaling"]
 
 _FORMAT = "usd2kg-calibration/1"
+_OTHER_SETTINGS = frozenset({"regime", "abbreviated_length", "evidence", "first_sample", "calibration"})
+"""Settings of a run that are not settings of the model and its prompts."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -20,7 +23,7 @@ class PlattScaling:
     intercept: float
     slope: float
     grounder: str
-    """The grounder and its settings that the scaling was fitted for, as text."""
+    """What it was fitted for: of a language model, its `describe_settings`."""
     answers: int
     """Number of predictions that it was fitted on."""
 
@@ -28,9 +31,23 @@ class PlattScaling:
         """Return the probability that the prediction is correct, rounded to four decimals."""
         return round(1 / (1 + math.exp(-(self.intercept + self.slope * logit(confidence)))), 4)
 
+    @property
+    def formula(self) -> str:
+        """The log-odds that the prediction is correct, as text."""
+        return f"{self.intercept:g} {self.slope:+g} logit"
+
     def as_json(self) -> str:
         """Return the text of the file that `read_scaling` reads."""
         return json.dumps({"format": _FORMAT, **asdict(self)}, indent=1, ensure_ascii=False) + "\n"
+
+
+def describe_settings(settings: Mapping[str, str]) -> str:
+    """Return the model and the form of its prompts in one line: a scaling is valid for runs with the same line.
+
+    Args:
+        settings: those of a run, or of its grounder.
+    """
+    return ", ".join(f"{key} {value}" for key, value in sorted(settings.items()) if key not in _OTHER_SETTINGS)
 
 
 def logit(confidence: float) -> float:

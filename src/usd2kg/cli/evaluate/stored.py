@@ -10,7 +10,6 @@ from typer import Argument, Option
 from usd2kg.cli.options.common import JsonOutput
 from usd2kg.cli.output import emit, format_optional, notify, print_json
 from usd2kg.cli.text_table import format_table
-from usd2kg.errors import EvaluationError
 
 if TYPE_CHECKING:
     from usd2kg.evaluation.score import Score
@@ -24,26 +23,30 @@ _SMALLEST_P = 0.0001
 
 def calibrate_command(
     runs: Annotated[
-        list[Path], Argument(metavar="RUN...", help="Runs of one grounder, written by usd2kg eval run --output.")
+        list[Path],
+        Argument(
+            metavar="RUN...",
+            help="Runs of one language model with the same options, without --cascade, written by usd2kg eval run "
+            "--output.",
+        ),
     ],
     output: Annotated[Path, Option("--output", "-o", help="Calibration to write, for --calibration.")],
 ) -> None:
     """Fit a calibration of a language model's confidence to its runs (Platt scaling).
 
-    Use scenes other than those you evaluate on.
+    Use scenes other than those you evaluate on. Decisions of a person are left out.
     """
     from usd2kg import evaluation  # noqa: PLC0415
+    from usd2kg.evaluation.calibrate import model_answers  # noqa: PLC0415
     from usd2kg.evaluation.metrics.calibration import calibration_error  # noqa: PLC0415
     from usd2kg.evaluation.stored import read_run  # noqa: PLC0415
     from usd2kg.files import check_apart  # noqa: PLC0415
+    from usd2kg.grounding.platt_scaling import describe_settings  # noqa: PLC0415
 
     check_apart([output], runs)
     stored = [read_run(path) for path in runs]
-    grounders = {run.description for run in stored}
-    if len(grounders) > 1:
-        raise EvaluationError(f"runs of different grounders: {'; '.join(sorted(grounders))}; expected runs of one")
-    scores = [score for run in stored for score in run.scores]
-    scaling = evaluation.fit_scaling(scores, grounders.pop())
+    scores = model_answers(stored)
+    scaling = evaluation.fit_scaling(scores, describe_settings(stored[0].settings))
     scaled = [
         replace(score, confidence=None if score.confidence is None else scaling(score.confidence)) for score in scores
     ]
@@ -53,6 +56,11 @@ def calibrate_command(
         f"fitted on {scaling.answers} answers: calibration error {format_optional(before, '.3f')} before, "
         f"{format_optional(after, '.3f')} after, on the same answers"
     )
+    if scaling.slope <= 0:
+        notify(
+            f"the slope is {scaling.slope:g}: answers of a higher confidence are not more often right, so that "
+            f"--calibration {output} would reverse their order; do not use it, or fit it on more answers"
+        )
 
 
 def compare_command(
@@ -62,22 +70,23 @@ def compare_command(
 ) -> None:
     """Compare two runs object by object, with McNemar's exact test."""
     from usd2kg.evaluation.metrics.intervals import mcnemar  # noqa: PLC0415
-    from usd2kg.evaluation.stored import read_run  # noqa: PLC0415
+    from usd2kg.evaluation.stored import check_comparable, describe_runs, read_run  # noqa: PLC0415
     from usd2kg.ontology import local_name  # noqa: PLC0415
 
     a, b = read_run(first), read_run(second)
-    if a.ontology_hash != b.ontology_hash:
-        raise EvaluationError(f"{first} and {second} used different ontologies; compare runs on the same one")
+    check_comparable(a, b)
     others = {score.id: score for score in b.scores}
     pairs = [(score, others[score.id]) for score in a.scores if score.id in others]
-    if not pairs:
-        raise EvaluationError(f"{first} and {second} have no object in common; compare runs on the same scene")
+    unpaired = len(a.scores) - len(pairs), len(b.scores) - len(pairs)
+    described = describe_runs((a, b))
     test = mcnemar(a.scores, b.scores)
     differing = [(x, y) for x, y in pairs if x.is_exact != y.is_exact]
     data: dict[str, Any] = {
         "n": len(pairs),
-        "first": _ema_json(a, [x for x, _ in pairs]),
-        "second": _ema_json(b, [y for _, y in pairs]),
+        "unpaired_first": unpaired[0],
+        "unpaired_second": unpaired[1],
+        "first": {"file": a.source, "run": described[0], **_ema_json(a, [x for x, _ in pairs])},
+        "second": {"file": b.source, "run": described[1], **_ema_json(b, [y for _, y in pairs])},
         "only_first": test.only_first,
         "only_second": test.only_second,
         "p_value": test.p_value,
@@ -87,10 +96,13 @@ def compare_command(
         print_json(data)
         return
     head = (
-        f"A  {_ema_text(data['first'])}  {a.description}\nB  {_ema_text(data['second'])}  {b.description}\n"
+        f"A  {_ema_text(data['first'])}  {first}: {described[0]}\n"
+        f"B  {_ema_text(data['second'])}  {second}: {described[1]}\n"
         f"{data['n']} objects; only A right: {test.only_first}, only B right: {test.only_second}; "
         f"McNemar's exact p {_p_value_text(test.p_value)}\n"
     )
+    if any(unpaired):
+        head += f"left out, since only one run has gold labels for them: {unpaired[0]} of A, {unpaired[1]} of B\n"
     names = [[local_name(iri) if iri else None for iri in (x.target, x.answer, y.answer)] for x, y in differing]
     rows = [(x.id, *row) for (x, _), row in zip(differing, names, strict=True)]
     emit(head + (format_table(("differs", "gold", "A", "B"), rows) if rows else ""))
@@ -101,7 +113,7 @@ def _ema_json(run: "StoredRun", scores: Sequence["Score"]) -> dict[str, Any]:
     exact = [score.id for score in scores if score.is_exact]
     selected = [path for path in exact if path not in run.missed]
     share = 100 / len(scores)
-    return {"run": run.description, "ema": share * len(exact), "end_to_end_ema": share * len(selected)}
+    return {"ema": share * len(exact), "end_to_end_ema": share * len(selected)}
 
 
 def _ema_text(data: Mapping[str, Any]) -> str:

@@ -22,7 +22,7 @@ from usd2kg.grounding.llm.prompt_options import PromptOptions, Strategy
 from usd2kg.grounding.llm.prompts import Example, ObjectPictures
 from usd2kg.grounding.llm.settings import CONCEPTS, SAMPLING
 from usd2kg.grounding.llm.traffic import Traffic
-from usd2kg.grounding.platt_scaling import read_scaling
+from usd2kg.grounding.platt_scaling import describe_settings, read_scaling
 
 __all__ = [
     "LLMSettings",
@@ -107,7 +107,8 @@ def open_llm_grounder(
 
     Raises:
         GroundingError: the model is unknown, a key is missing, the cache cannot be opened, the price is malformed,
-            there is a budget in dollars but no known price, or the service has no batch jobs.
+            there is a budget in dollars but no known price, the service has no batch jobs, or the calibration was
+            fitted for another model or other prompts.
     """
     with ExitStack() as stack:
         client = _open_metered_client(settings, stack, reporting, is_dry=is_dry)
@@ -152,7 +153,8 @@ def _make_grounder(
     pictures: Callable[[str], ObjectPictures | None] | None = None,
     progress: Callable[[int, int], None] | None = None,
 ) -> LLMGrounder:
-    return LLMGrounder(
+    scaling = read_scaling(settings.calibration) if settings.calibration is not None else None
+    grounder = LLMGrounder(
         client,
         _prompt_options(settings),
         shares_answers=not settings.is_each_object,
@@ -163,9 +165,16 @@ def _make_grounder(
         first_sample=settings.first_sample,
         examples=examples,
         pictures=pictures,
-        scaling=read_scaling(settings.calibration) if settings.calibration is not None else None,
+        scaling=scaling,
         progress=progress,
     )
+    own = describe_settings(grounder.settings)
+    if scaling is not None and scaling.grounder != own:
+        raise GroundingError(
+            f"{settings.calibration}: was fitted for other confidences ({scaling.grounder}); expected those of this "
+            f"model and its options ({own}); fit a calibration on such runs with usd2kg eval calibrate"
+        )
+    return grounder
 
 
 @contextmanager

@@ -178,6 +178,7 @@ class LLMGrounder:
             **({"first_sample": str(self._first_sample)} if self._first_sample else {}),
             **({"examples": str(len(self._examples))} if self._examples else {}),
             **({"pictures": "true"} if self._pictures_of is not None else {}),
+            **({"calibration": self._scaling.formula} if self._scaling is not None else {}),
             **({"shuffle": str(self._options.shuffle_seed)} if self._options.shuffle_seed is not None else {}),
         }
 
