@@ -14,6 +14,7 @@ from usd2kg.evaluation.matrix import OWN_ABLATION, STUDY_ABLATION
 from usd2kg.grounding import NamingRegime
 from usd2kg.grounding.lexical.grounder import LexicalGrounder
 from usd2kg.grounding.llm.factory import LLMSettings
+from usd2kg.ontology import load_places_tbox
 
 SCENE = """
 def Xform "World" {
@@ -165,6 +166,20 @@ def test_cascades_run_each_language_model_at_each_threshold(matrix: Path) -> Non
         ("repeats = 2", "repeat = 2", "matrix has the unknown key 'repeat'; expected"),
         ('gold = "gold.csv"', 'golden = "gold.csv"', "scene 'room' has the unknown key 'golden'"),
         ('gold = "gold.csv"', "", "scene 'room' has no gold"),
+        ('"elsewhere"', '"room"', "matrix.toml: two scenes are called 'room'; expected different names"),
+        ("repeats = 2", 'repeats = "x"', "repeats is 'x'; expected a whole number from 1"),
+        ("repeats = 2", "repeats = 0", "repeats is 0; expected a whole number from 1"),
+        ("repeats = 2", "repeats = 1.7", "repeats is 1.7; expected a whole number from 1"),
+        ("repeats = 2", "repeats = true", "repeats is True; expected a whole number from 1"),
+        ("repeats = 2", 'ablation = "no"', "ablation is 'no'; expected true or false"),
+        ('"two things"', "2", "title is 2; expected a text"),
+        ('["lexical"]', '"lexical"', "grounders is 'lexical'; expected a list of one name or more"),
+        ('["lexical"]', "[1]", r"grounders is \[1\]; expected a list of one name or more"),
+        ('["lexical"]', "[]", r"grounders is \[\]; expected a list of one name or more"),
+        ('["semantic", "opaque"]', "[]", r"regimes is \[\]; expected a list of one name or more"),
+        ('"gold.csv"', "3", "scene 'room': gold is 3; expected a text"),
+        ("optional = true", "optional = 1", "scene 'elsewhere': optional is 1; expected true or false"),
+        ('name = "room"', "name = 1", "a scene: name is 1; expected a text"),
         ('"scene.usda"', '"other.usda"', "other.usda does not exist"),
         ("[[scene]]", "[[scene", "cannot be read as a matrix"),
     ],
@@ -173,6 +188,48 @@ def test_rejects_a_malformed_matrix(matrix: Path, old: str, new: str, said: str)
     matrix.write_text(matrix.read_text().replace(old, new, 1))
     with pytest.raises(EvaluationError, match=said):
         read_matrix(matrix)
+
+
+def test_rejects_a_single_table_of_a_scene(tmp_path: Path) -> None:
+    path = tmp_path / "m.toml"
+    path.write_text('[scene]\npath = "a.usd"\ngold = "a.csv"\n')
+    with pytest.raises(EvaluationError, match=r"scene is \{'path'.*; expected a table \[\[scene\]\] for each scene"):
+        read_matrix(path)
+
+
+def test_names_a_built_in_ontology(matrix: Path, tmp_path: Path) -> None:
+    matrix.write_text(matrix.read_text().replace('"gold.csv"', '"gold.csv"\nontology = "places"'))
+    (tmp_path / "gold.csv").write_text("path,class\n/World/Table_1,Roof\n")
+    (result,) = run_matrix(read_matrix(matrix), tmp_path / "out")
+    assert result.tbox.content_hash == load_places_tbox().content_hash
+    (tmp_path / "places").write_text("")
+    assert read_matrix(matrix).scenes[0].ontology == tmp_path / "places", "a file of this name"
+
+
+def test_scores_scenes_of_one_name_on_their_own_gold(matrix: Path, tmp_path: Path) -> None:
+    plan = read_matrix(matrix)
+    (tmp_path / "other.csv").write_text("path,class\n/World/Chair_1,Sofa\n/World/Table_1,Sofa\n")
+    twins = plan.scenes[0], replace(plan.scenes[0], gold=tmp_path / "other.csv")
+    results = run_matrix(replace(plan, scenes=twins), tmp_path / "out")
+    assert [result.cells[0].evaluation.summary.ema for result in results] == [100.0, 0.0]
+
+
+def test_rejects_gold_of_another_scene(matrix: Path, tmp_path: Path) -> None:
+    (tmp_path / "gold.csv").write_text("path,class\n/Flat/Sofa,Sofa\n")
+    with pytest.raises(EvaluationError) as caught:
+        run_matrix(read_matrix(matrix), tmp_path / "out")
+    assert str(caught.value) == (
+        f"{tmp_path}/gold.csv: none of its 1 paths is in {tmp_path}/scene.usda; expected the gold of this scene"
+    )
+
+
+def test_warns_of_gold_paths_that_are_not_on_the_stage(
+    matrix: Path, tmp_path: Path, caplog: pytest.LogCaptureFixture
+) -> None:
+    (tmp_path / "gold.csv").write_text("path,class\n/World/Chair_1,DesignedChair\n/Flat/Sofa,Sofa\n")
+    run_matrix(read_matrix(matrix), tmp_path / "out")
+    said = f"{tmp_path}/gold.csv: 1 of 2 gold paths are not on the stage {tmp_path}/scene.usda, /Flat/Sofa for one"
+    assert f"{said}; they count as wrong" in caplog.messages
 
 
 def test_rejects_a_matrix_without_scenes(tmp_path: Path) -> None:

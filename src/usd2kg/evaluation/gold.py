@@ -1,14 +1,18 @@
 """Gold labels: the class of each prim according to a person."""
 
 import csv
-from collections.abc import Iterable
+import logging
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
 from usd2kg.errors import EvaluationError, OntologyError
 from usd2kg.ontology import ClassIRI, TBox
+from usd2kg.scene import Scene
 
-__all__ = ["GoldLabel", "read_gold"]
+__all__ = ["GoldLabel", "check_gold", "read_gold"]
+
+logger = logging.getLogger(__name__)
 
 _HEADER = "path,class,also"
 _REQUIRED_COLUMNS = ("path", "class")
@@ -74,3 +78,19 @@ def _check_unique(path: Path, labels: Iterable[GoldLabel]) -> None:
         if label.prim_path in seen:
             raise EvaluationError(f"{path}: {label.prim_path} has more than one row; expected one row per prim")
         seen.add(label.prim_path)
+
+
+def check_gold(path: Path, gold: Sequence[GoldLabel], scene: Scene) -> None:
+    """Check that gold labels belong to a scene that was read with their paths; warn of those that are not on the stage.
+
+    Raises:
+        EvaluationError: none of the paths is on the stage.
+    """
+    missing = scene.missing_paths
+    if len(missing) == len(gold):
+        raise EvaluationError(
+            f"{path}: none of its {len(gold)} paths is in {scene.source}; expected the gold of this scene"
+        )
+    if missing:
+        problem = "%d of %d gold paths are not on the stage %s, %s for one; they count as wrong"
+        logger.warning(f"%s: {problem}", path, len(missing), len(gold), scene.source, missing[0])

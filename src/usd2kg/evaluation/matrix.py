@@ -1,10 +1,11 @@
 """Run matrices: scenes × grounders × conditions × repeats, read from TOML files."""
 
 import tomllib
-from collections.abc import Iterable, Iterator, Mapping
+from collections import Counter
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Any
+from typing import Any, NoReturn
 
 from usd2kg.errors import EvaluationError, GroundingError
 from usd2kg.grounding import GROUNDERS, NamingRegime, is_llm_name, parse_evidence
@@ -130,7 +131,8 @@ def read_matrix(path: Path) -> Matrix:
     """Return the matrix in a TOML file; its paths are relative to the file.
 
     Raises:
-        EvaluationError: the file cannot be read, or has an unknown key, grounder or regime.
+        EvaluationError: the file cannot be read, or has an unknown key, grounder or regime, a value of another
+            type, or two scenes of one name.
     """
     try:
         data = tomllib.loads(path.read_text("utf-8"))
@@ -139,20 +141,60 @@ def read_matrix(path: Path) -> Matrix:
             f"{path}: cannot be read as a matrix ({error}); expected TOML, see docs/evaluation.md"
         ) from error
     _check_keys(path, "matrix", data, _KEYS)
-    scenes = tuple(_read_scene_spec(path, spec) for spec in data.get("scene", ()))
+    read = _Table(str(path), data)
+    tables = data.get("scene", ())
+    if not isinstance(tables, list | tuple) or not all(isinstance(table, dict) for table in tables):
+        raise EvaluationError(f"{path}: scene is {tables!r}; expected a table [[scene]] for each scene")
+    scenes = tuple(_read_scene_spec(path, table) for table in tables)
     if not scenes:
         raise EvaluationError(f"{path}: has no scene; expected at least one [[scene]] with path and gold")
-    grounders = _read_grounders(path, data.get("grounders", GROUNDERS))
+    _check_distinct_names(path, scenes)
+    grounders = _read_grounders(path, read.names("grounders", GROUNDERS))
     return Matrix(
-        title=str(data.get("title", path.stem)),
+        title=read.text("title", path.stem),
         scenes=scenes,
         grounders=grounders,
-        regimes=_read_regimes(path, data.get("regimes", tuple(NamingRegime))),
-        repeats=int(data.get("repeats", 1)),
-        ablation={**STUDY_ABLATION, **OWN_ABLATION} if data.get("ablation", False) else {},
+        regimes=_read_regimes(path, read.names("regimes", tuple(NamingRegime))),
+        repeats=read.count("repeats", 1),
+        ablation={**STUDY_ABLATION, **OWN_ABLATION} if read.switch("ablation") else {},
         ablated=grounders,
         cascades=_read_cascades(path, data.get("cascade", ()), grounders),
     )
+
+
+@dataclass(frozen=True, slots=True)
+class _Table:
+    """A TOML table whose values are checked for their types."""
+
+    where: str
+    data: Mapping[str, Any]
+
+    def text(self, key: str, default: str) -> str:
+        value = self.data.get(key, default)
+        return value if isinstance(value, str) else self._reject(key, "a text")
+
+    def switch(self, key: str) -> bool:
+        value = self.data.get(key, False)
+        return value if isinstance(value, bool) else self._reject(key, "true or false")
+
+    def count(self, key: str, default: int) -> int:
+        value = self.data.get(key, default)
+        # A bool is an int.
+        return value if type(value) is int and value > 0 else self._reject(key, "a whole number from 1")
+
+    def names(self, key: str, default: Sequence[str]) -> tuple[str, ...]:
+        values = self.data.get(key, default)
+        is_list = isinstance(values, list | tuple) and all(isinstance(value, str) for value in values)
+        return tuple(dict.fromkeys(values)) if is_list and values else self._reject(key, "a list of one name or more")
+
+    def _reject(self, key: str, expected: str) -> NoReturn:
+        raise EvaluationError(f"{self.where}: {key} is {self.data[key]!r}; expected {expected}")
+
+
+def _check_distinct_names(path: Path, scenes: Iterable[SceneSpec]) -> None:
+    repeated = [name for name, count in Counter(scene.name for scene in scenes).items() if count > 1]
+    if repeated:
+        raise EvaluationError(f"{path}: two scenes are called {repeated[0]!r}; expected different names, set name")
 
 
 def _read_cascades(path: Path, thresholds: Any, grounders: Iterable[str]) -> tuple[float, ...]:
@@ -164,13 +206,12 @@ def _read_cascades(path: Path, thresholds: Any, grounders: Iterable[str]) -> tup
     return tuple(dict.fromkeys(map(float, thresholds)))
 
 
-def _read_grounders(path: Path, names: Iterable[str]) -> tuple[str, ...]:
-    grounders = tuple(names)
-    unknown = [name for name in grounders if name not in GROUNDERS and not is_llm_name(name)]
+def _read_grounders(path: Path, names: tuple[str, ...]) -> tuple[str, ...]:
+    unknown = [name for name in names if name not in GROUNDERS and not is_llm_name(name)]
     if unknown:
         known = ", ".join(GROUNDERS)
         raise EvaluationError(f"{path}: grounder {unknown[0]!r} is unknown; expected {known}, or llm-B:MODEL")
-    return grounders
+    return names
 
 
 def _read_regimes(path: Path, names: Iterable[str]) -> tuple[NamingRegime, ...]:
@@ -181,25 +222,35 @@ def _read_regimes(path: Path, names: Iterable[str]) -> tuple[NamingRegime, ...]:
 
 
 def _read_scene_spec(path: Path, spec: Mapping[str, Any]) -> SceneSpec:
-    name = str(spec.get("name", spec.get("path", "unnamed")))
-    _check_keys(path, f"scene {name!r}", spec, _SCENE_KEYS)
+    name = _Table(f"{path}: a scene", spec).text("name", str(spec.get("path", "unnamed")))
+    where = f"scene {name!r}"
+    _check_keys(path, where, spec, _SCENE_KEYS)
     for key in ("path", "gold"):
         if key not in spec:
-            raise EvaluationError(f"{path}: scene {name!r} has no {key}; expected path and gold")
+            raise EvaluationError(f"{path}: {where} has no {key}; expected path and gold")
+    read = _Table(f"{path}: {where}", spec)
     folder = path.resolve().parent
     scene = SceneSpec(
         name=name,
-        path=folder / spec["path"],
-        gold=folder / spec["gold"],
-        ontology=folder / spec["ontology"] if "ontology" in spec else None,
-        note=str(spec.get("note", "")),
-        is_optional=bool(spec.get("optional", False)),
+        path=folder / read.text("path", ""),
+        gold=folder / read.text("gold", ""),
+        ontology=_find_ontology(folder, read.text("ontology", "")),
+        note=read.text("note", ""),
+        is_optional=read.switch("optional"),
     )
     if scene.missing and not scene.is_optional:
         raise EvaluationError(
             f"{path}: scene {name!r}: {scene.missing} does not exist; fix the path or set optional = true"
         )
     return scene
+
+
+def _find_ontology(folder: Path, name: str) -> Path | None:
+    """Return an ontology beside the matrix, or the name of a built-in one; None if the scene names none."""
+    if not name:
+        return None
+    file = folder / name
+    return Path(name) if name in BUILT_IN_NAMES and not file.is_file() else file
 
 
 def _check_keys(path: Path, table: str, data: Mapping[str, Any], known: set[str]) -> None:

@@ -10,7 +10,7 @@ from importlib.resources import files
 from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple
 
-from usd2kg.evaluation.gold import GoldLabel, read_gold
+from usd2kg.evaluation.gold import GoldLabel, check_gold, read_gold
 from usd2kg.evaluation.matrix import Cell, Matrix, SceneSpec
 from usd2kg.evaluation.matrix_grounders import MatrixGrounders, open_grounders
 from usd2kg.evaluation.metrics.selection_scores import SelectionScore
@@ -90,9 +90,9 @@ def run_matrix(
         Usd2kgError: a scene, its gold labels or a model cannot be opened.
     """
     (folder / "runs").mkdir(parents=True, exist_ok=True)
-    by_scene: dict[str, list[Cell]] = {}
+    by_scene: dict[SceneSpec, list[Cell]] = {}
     for cell in matrix.cells():
-        by_scene.setdefault(cell.scene.name, []).append(cell)
+        by_scene.setdefault(cell.scene, []).append(cell)
     if matrix.language_models:
         restore_recording(folder, settings)
     results, skipped = [], False
@@ -100,8 +100,7 @@ def run_matrix(
         runner = _Runner(grounders, folder, refresh, progress)
         if settings is not None and settings.is_batched:
             runner.complete_prompts(cell for cells in by_scene.values() for cell in cells)
-        for cells in by_scene.values():
-            spec = cells[0].scene
+        for spec, cells in by_scene.items():
             if spec.missing is not None:
                 logger.warning("scene %s skipped: %s does not exist", spec.name, spec.missing)
                 skipped = True
@@ -131,8 +130,8 @@ class _Runner:
     folder: Path
     refresh: bool
     progress: Callable[[CellResult], None] | None
-    read: dict[str, _Inputs] = field(default_factory=dict)
-    """The inputs of the scenes that have been read, by name."""
+    read: dict[SceneSpec, _Inputs] = field(default_factory=dict)
+    """The inputs of the scenes that have been read."""
 
     def complete_prompts(self, cells: Iterable[Cell]) -> None:
         """Complete the prompts of all runs in common batch jobs, so that there is a single wait.
@@ -159,12 +158,13 @@ class _Runner:
             evaluate(inputs.scene, inputs.gold, inputs.tbox, grounder, regime=cell.regime, evidence=cell.evidence)
 
     def _read(self, spec: SceneSpec) -> _Inputs:
-        if spec.name not in self.read:
+        if spec not in self.read:
             tbox = load_tbox(spec.ontology) if spec.ontology else load_home_tbox()
             gold = read_gold(spec.gold, tbox)
             scene = read_scene(spec.path, paths=[label.prim_path for label in gold])
-            self.read[spec.name] = _Inputs(scene, gold, tbox, score_scene_selection(scene, gold))
-        return self.read[spec.name]
+            check_gold(spec.gold, gold, scene)
+            self.read[spec] = _Inputs(scene, gold, tbox, score_scene_selection(scene, gold))
+        return self.read[spec]
 
     def _store(self, cell: Cell, inputs: _Inputs, grounder: Grounder) -> Path:
         return self.folder / "runs" / f"{_key(cell, inputs, grounder, self.grounders.price)}.json"

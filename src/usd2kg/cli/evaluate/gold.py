@@ -35,7 +35,8 @@ def annotate_command(
         raise EvaluationError(f"{output}: exists and may hold labels; choose another file, or overwrite with --force")
     check_apart([output], [scene, ontology])
     found = read_scene(scene)
-    tbox = open_tbox(ontology, found)
+    # The default of eval run, which reads the file.
+    tbox = open_tbox(ontology)
     suggestions = grounding.ground(found, tbox, grounding.make_grounder("lexical")) if suggest else None
     emit(gold_template(found, suggestions, tbox), output)
 

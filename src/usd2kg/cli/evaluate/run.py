@@ -37,6 +37,7 @@ def run_command(
 ) -> None:
     """Evaluate one grounder on one scene."""
     from usd2kg import evaluation  # noqa: PLC0415 - loads OpenUSD, too slow for --help
+    from usd2kg.evaluation.gold import check_gold  # noqa: PLC0415
     from usd2kg.files import check_writable  # noqa: PLC0415
     from usd2kg.pipeline import open_tbox  # noqa: PLC0415
     from usd2kg.scene import ReadOptions, read_scene  # noqa: PLC0415
@@ -50,8 +51,7 @@ def run_command(
     tbox = open_tbox(ontology)
     labels = evaluation.read_gold(gold, tbox)
     found = read_scene(scene, paths=[label.prim_path for label in labels])
-    if len(found.missing_paths) == len(labels):
-        raise EvaluationError(f"{gold}: none of its {len(labels)} paths is in {scene}; expected the gold of this scene")
+    check_gold(gold, labels, found)
     with (
         show_progress(grounding, "ground", is_wanted=not json),
         open_grounder_session(grounding, found, tbox, scene, ReadOptions()) as session,
