@@ -126,8 +126,18 @@ class TestPrice:
             done = run("ground", kitchen, "--grounder", model, "--price", "10/100", "--budget", "0", "--format", "json")
             assert server.received == []
         found = json.loads(done.out)["predictions"]
-        assert done.code == 0
-        assert {p["explanation"] for p in found} == {"not asked: $0 are spent of a budget of $0; raise --budget"}
+        reason = "not asked: $0 are spent of a budget of $0; raise --budget"
+        assert {p["explanation"] for p in found} == {reason}
+        assert done.code == 2
+        assert f"the model completed none of 2 prompts ({reason}); the output contains no classes" in done.err
+
+    def test_evaluation_without_budget_fails_and_keeps_its_figures(self, run: Run, kitchen: Path):
+        Path("gold.csv").write_text("path,class\n/Kitchen/mug_1,Cup\n", "utf-8")
+        with serve(openai_reply(cup())) as server:
+            model = ("--grounder", f"llm-A:openai:test@{server.url}/v1", "--price", "10/100", "--budget", "0")
+            done = run("eval", "run", kitchen, "--gold", "gold.csv", *model, "--json")
+        assert (done.code, json.loads(done.out)["answered"]) == (2, 0)
+        assert "the model completed none of 1 prompts (not asked: $0 are spent of a budget of $0;" in done.err
 
     def test_budget_stops_the_run_and_keeps_its_results(self, run: Run, kitchen: Path):
         options = ("--each-object", "--price", "10/100", "--budget", "0.001", "--concurrency", "1")
@@ -140,6 +150,7 @@ class TestPrice:
         assert [p["status"] for p in found].count("grounded") == 1
         explanation = "not asked: $0.0017 are spent of a budget of $0.0010; raise --budget"
         assert [p["explanation"] for p in found].count(explanation) == 2
+        assert done.err.splitlines()[-1] == f"2 prompts without a completion ({explanation})"
 
     def test_rejects_a_budget_without_price(self, run: Run, kitchen: Path):
         with serve(openai_reply(cup())) as server:
@@ -509,3 +520,4 @@ def test_one_completion_is_enough(run: Run, kitchen: Path):
         done = run("ground", kitchen, "--grounder", f"llm-B:openai:x@{server.url}/v1", "--concurrency", "1")
     assert done.code == 0
     assert "1 prompt failed" in done.err
+    assert re.search(r"^1 prompt without a completion \(model 'openai:x@.*status 401: bad key", done.err, re.M)

@@ -77,15 +77,15 @@ class GrounderSession:
         """Check that the model completed at least one prompt of the run, if there were any.
 
         Raises:
-            GroundingError: all prompts failed, for example because the key is rejected.
+            GroundingError: no prompt has a completion, for example because the key is rejected or the budget is spent.
         """
         if self.model is None:
             return
         report = self.model.report
-        if report.first_failure and not (report.completions or report.cached or report.is_interrupted):
+        if report.problem and not (report.completions or report.cached or report.is_interrupted):
             raise GroundingError(
                 f"{self.options.grounder}: the model completed none of {report.prompts} prompts "
-                f"({report.first_failure}); the output contains no classes from the model"
+                f"({report.problem}); the output contains no classes from the model"
             )
 
 

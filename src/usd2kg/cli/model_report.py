@@ -49,7 +49,10 @@ def _prompt_texts(requests: "Sequence[Request]") -> Iterator[str]:
 
 
 def report_cost(report: "RunReport", grounding: "Grounding") -> None:
-    """Print to stderr, on one line, the completions, requests, tokens, price and time of a run."""
+    """Print to stderr the completions, requests, tokens, price and time of a run, and why prompts have no completion.
+
+    A run without any completion is an error, which states the reason.
+    """
     unclassified = sum(1 for prediction in grounding.predictions if prediction.class_iri is None)
     notify(
         f"{count_noun(report.objects, 'object')} in {count_noun(report.prompts, 'prompt')}: "
@@ -58,6 +61,8 @@ def report_cost(report: "RunReport", grounding: "Grounding") -> None:
         f"{count_noun(report.failed, 'prompt')} failed, {count_noun(unclassified, 'object')} without a class; "
         f"{_traffic_text(report)}"
     )
+    if report.problem and (report.completions or report.cached):
+        notify(f"{count_noun(report.failed, 'prompt')} without a completion ({report.problem})")
 
 
 def report_prompts(report: "RunReport") -> None:

@@ -318,7 +318,9 @@ class LLMGrounder:
                 self.report.repairs += sample.repairs
                 self.report.degenerate += sample.degenerate
                 self.report.failed += sample.failure is not None
-                if sample.failure is not None and not isinstance(sample.failure, NotAskedError):
+                if isinstance(sample.failure, NotAskedError):
+                    self.report.first_refusal = self.report.first_refusal or str(sample.failure)
+                elif sample.failure is not None:
                     self.report.first_failure = self.report.first_failure or str(sample.failure)
 
     def _sample(self, batch: Batch, number: int, tbox: TBox) -> _Sample:

@@ -39,6 +39,8 @@ class RunReport:
     """Prompts without a completion."""
     first_failure: str = ""
     """Reason for the first failure among prompts that were sent; empty if there was none."""
+    first_refusal: str = ""
+    """Reason for the first prompt that was not sent, such as a spent budget; empty if all were sent."""
     usage: Usage = field(default_factory=Usage)
     """Tokens of the completions received from the model."""
     price: Decimal | None = None
@@ -59,6 +61,11 @@ class RunReport:
     seconds: float = 0.0
     is_interrupted: bool = False
     """Whether the user interrupted the run."""
+
+    @property
+    def problem(self) -> str:
+        """Why prompts have no completion; empty if all have one. Prompts may be unsent because others failed."""
+        return self.first_failure or self.first_refusal
 
 
 @dataclass(frozen=True, slots=True)
