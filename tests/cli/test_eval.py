@@ -66,6 +66,8 @@ def test_run_prints_wrong_answers_with_reasons(run, room: Path, gold: Path) -> N
     done = run("eval", "run", room, "--gold", gold)
     assert done.code == 0
     assert re.search(r"exact match \(EMA\) % +33\.3 ", done.out)
+    few = "none +only 2 of 3 objects have an answer with a confidence"
+    assert re.search(rf"EMA of the most confident 80 % +{few}\n +accepting a second label % +{few}\n", done.out)
     assert "/Room/coffee_mug" in done.out.partition("wrong")[2]
     assert "is a name for Cup" in done.out
 

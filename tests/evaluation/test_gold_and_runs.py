@@ -89,6 +89,19 @@ def test_summary_uses_the_units_of_the_study() -> None:
     json.dumps(data)
 
 
+def test_intervals_have_a_width_if_all_answers_are_right() -> None:
+    gold = [label("/cup_1", "Cup"), label("/cup_2", "Cup"), label("/wall", "Wall")]
+    answers = grounding_of({"/cup_1": "Cup", "/cup_2": "Cup", "/wall": "Wall"})
+    data = evaluation_json(score_grounding(answers, gold, TBOX, 0.5))
+    # n / (n + z²): 3 objects, 2 distinct names.
+    by_object, by_name = [pytest.approx(43.85, abs=0.01), 100.0], [pytest.approx(34.24, abs=0.01), 100.0]
+    assert data["ema_interval"] == data["ema_also_interval"] == by_object
+    assert data["ema_name_interval"] == data["ema_by_name_interval"] == by_name
+    assert data["hf1_interval"] == [pytest.approx(0.4385, abs=1e-4), 1.0]
+    wrong = grounding_of(dict.fromkeys(("/cup_1", "/cup_2", "/wall")))
+    assert score_grounding(wrong, gold, TBOX, 0.5).summary.ema_interval == (0.0, pytest.approx(56.15, abs=0.01))
+
+
 def test_missed_objects_have_no_answer_end_to_end() -> None:
     gold = [label("/a", "Cup"), label("/b", "Cup")]
     evaluation = score_grounding(grounding_of({"/a": "Cup", "/b": "Cup"}), gold, TBOX, 0.1, missed=("/b",))

@@ -21,7 +21,7 @@ from usd2kg.evaluation.metrics.calibration import (
 )
 from usd2kg.evaluation.metrics.confusion import class_reports, confusion
 from usd2kg.evaluation.metrics.hierarchical import hierarchical_f1, hierarchical_score, mean_hierarchical_score
-from usd2kg.evaluation.metrics.intervals import bootstrap_interval, mcnemar, mean_and_deviation
+from usd2kg.evaluation.metrics.intervals import bootstrap_interval, mcnemar, mean_and_deviation, mean_interval
 from usd2kg.evaluation.metrics.misses import Miss, classify_miss, count_misses
 from usd2kg.evaluation.metrics.selection_scores import score_selection
 
@@ -212,9 +212,20 @@ def test_singleton_clusters_give_the_interval_over_objects() -> None:
     assert bootstrap_interval(values, list("abcdef")) == bootstrap_interval(values)
 
 
+def test_interval_at_either_end_is_wilsons() -> None:
+    # Wilson's interval of 0 of n is 0 to z² / (n + z²), with z = 1.96: 3.84 / (87 + 3.84) = 0.0423.
+    assert mean_interval([0.0] * 87, highest=100) == pytest.approx((0.0, 4.23), abs=0.01)
+    assert mean_interval([1.0] * 26) == pytest.approx((26 / (26 + 3.8415), 1.0), abs=1e-4)
+    assert mean_interval([0.0]) == pytest.approx((0.0, 3.8415 / 4.8415), abs=1e-4)
+    # Three names: 3.84 / (3 + 3.84) = 0.5615.
+    assert mean_interval([0.0] * 4, ["cup", "cup", "bowl", "wall"]) == pytest.approx((0.0, 0.5615), abs=1e-4)
+    assert mean_interval([0.0, 1.0, 1.0]) == bootstrap_interval([0.0, 1.0, 1.0])
+
+
 def test_interval_of_no_values_raises() -> None:
-    with pytest.raises(ValueError, match="no samples"):
-        bootstrap_interval([])
+    for interval in (bootstrap_interval, mean_interval):
+        with pytest.raises(ValueError, match="no samples"):
+            interval([])
 
 
 def test_mcnemar_exact_p_value() -> None:

@@ -11,7 +11,7 @@ from usd2kg.evaluation.metrics.calibration import (
     chance_calibration_error,
 )
 from usd2kg.evaluation.metrics.hierarchical import hierarchical_score, mean_hierarchical_score
-from usd2kg.evaluation.metrics.intervals import Interval, bootstrap_interval
+from usd2kg.evaluation.metrics.intervals import Interval, mean_interval
 from usd2kg.evaluation.metrics.misses import count_misses
 from usd2kg.evaluation.score import Score, distinct_name
 from usd2kg.ontology import TBox
@@ -57,7 +57,8 @@ class Summary:
     chance_calibration_error: float | None
     """What the calibration error would be on average if the confidences were true; None without confidences."""
     accuracy_at_80: float | None
-    """Exact match, percent, of the most confident answers that cover 80 % of the objects; None if too few."""
+    """Exact match, percent, of the most confident answers that cover 80 % of the objects; None if fewer objects have an
+    answer with a confidence."""
     accepted_at_80: float | None
     """The same with second labels accepted, percent."""
     misses: dict[str, int]
@@ -92,16 +93,16 @@ def summarize_scores(scores: Sequence[Score], tbox: TBox) -> Summary:
         names=len(by_name),
         answered=sum(score.answer is not None for score in scores),
         ema=100 * exact_match(scores),
-        ema_interval=bootstrap_interval(exact),
-        ema_name_interval=bootstrap_interval(exact, names),
+        ema_interval=mean_interval(exact, highest=100.0),
+        ema_name_interval=mean_interval(exact, names, highest=100.0),
         ema_by_name=sum(name_means) / len(name_means),
-        ema_by_name_interval=bootstrap_interval(name_means),
+        ema_by_name_interval=mean_interval(name_means, highest=100.0),
         ema_also=100 * accept_also(scores),
-        ema_also_interval=bootstrap_interval(also),
+        ema_also_interval=mean_interval(also, highest=100.0),
         hp=means.precision,
         hr=means.recall,
         hf1=means.f1,
-        hf1_interval=bootstrap_interval(f1),
+        hf1_interval=mean_interval(f1),
         calibration_error=calibration_error(scores),
         chance_calibration_error=chance_calibration_error(scores),
         accuracy_at_80=None if confident is None else 100 * confident,

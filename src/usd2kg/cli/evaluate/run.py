@@ -80,6 +80,10 @@ def run_command(
 def _evaluation_text(result: "Evaluation", selection: "SelectionScore", tbox: "TBox") -> str:
     """Return the figures of an evaluation and its wrong answers as tables."""
     s, e = result.summary, result.end_to_end
+    confident = sum(score.confidence is not None for score in result.scores)
+    too_few = (
+        f"only {confident} of {s.n} objects have an answer with a confidence" if s.accuracy_at_80 is None else None
+    )
     rows = [
         ("objects (distinct names)", f"{s.n} ({s.names})", None),
         ("answered", str(s.answered), None),
@@ -93,8 +97,8 @@ def _evaluation_text(result: "Evaluation", selection: "SelectionScore", tbox: "T
         ("  end to end", f"{e.hf1:.3f}", f"{e.hf1_interval.lower:.3f} to {e.hf1_interval.upper:.3f}"),
         ("calibration error", format_optional(s.calibration_error, ".3f"), None),
         ("  if the confidences were true", format_optional(s.chance_calibration_error, ".3f"), None),
-        ("EMA of the most confident 80 %", format_optional(s.accuracy_at_80, ".1f"), None),
-        ("  accepting a second label %", format_optional(s.accepted_at_80, ".1f"), None),
+        ("EMA of the most confident 80 %", format_optional(s.accuracy_at_80, ".1f") or "none", too_few),
+        ("  accepting a second label %", format_optional(s.accepted_at_80, ".1f") or "none", too_few),
         ("object selection recall", f"{selection.recall:.3f}", None),
         ("object selection precision", format_optional(selection.precision, ".3f"), "if the gold labels are complete"),
         ("seconds", f"{result.seconds:.3f}", None),

@@ -111,8 +111,9 @@ def risk_coverage_curve(scores: Sequence[Score], *, accepting: bool = False) -> 
 
 
 def accuracy_at_coverage(scores: Sequence[Score], coverage: float, *, accepting: bool = False) -> float | None:
-    """Return the accuracy of the most confident answers that cover at least `coverage`; None if there are too few.
+    """Return the accuracy of the most confident answers about at least the share `coverage` of all objects.
 
+    None if fewer objects have an answer with a confidence. Answers of equal confidence count together.
     With `accepting`, second labels count as right.
     """
     curve = risk_coverage_curve(scores, accepting=accepting)

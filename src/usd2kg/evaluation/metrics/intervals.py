@@ -1,4 +1,4 @@
-"""Bootstrap and Wilson intervals, McNemar's test, and the spread of repeated runs."""
+"""Bootstrap and Wilson intervals, and which of them a mean has, McNemar's test, and the spread of repeated runs."""
 
 import math
 from collections.abc import Callable, Hashable, Sequence
@@ -10,7 +10,15 @@ import numpy as np
 from usd2kg.evaluation.score import Score
 from usd2kg.evaluation.settings import BOOTSTRAP
 
-__all__ = ["Interval", "McNemar", "bootstrap_interval", "mcnemar", "mean_and_deviation", "wilson_interval"]
+__all__ = [
+    "Interval",
+    "McNemar",
+    "bootstrap_interval",
+    "mcnemar",
+    "mean_and_deviation",
+    "mean_interval",
+    "wilson_interval",
+]
 
 _PERCENTILES = (2.5, 97.5)
 _Z = NormalDist().inv_cdf(_PERCENTILES[1] / 100)
@@ -61,6 +69,25 @@ def wilson_interval(right: int, total: int) -> Interval:
     center = (share + _Z**2 / (2 * total)) / scale
     half = _Z / scale * math.sqrt(share * (1 - share) / total + _Z**2 / (4 * total**2))
     return Interval(max(center - half, 0.0), min(center + half, 1.0))
+
+
+def mean_interval(
+    values: Sequence[float], clusters: Sequence[Hashable] | None = None, *, highest: float = 1.0
+) -> Interval:
+    """Return the interval of the mean of values from 0 to `highest`: by bootstrap, or Wilson's if all are at one end.
+
+    There, the bootstrap interval has no width. Wilson's bounds the share of values that are not at this end, and so the
+    mean; the values of a cluster count once.
+
+    Raises:
+        ValueError: there are no values.
+    """
+    if not values or not (all(value == 0 for value in values) or all(value == highest for value in values)):
+        return bootstrap_interval(values, clusters)
+    total = len(set(clusters)) if clusters is not None else len(values)
+    if values[0] == 0:
+        return Interval(0.0, highest * wilson_interval(0, total).upper)
+    return Interval(highest * wilson_interval(total, total).lower, highest)
 
 
 class McNemar(NamedTuple):

@@ -28,7 +28,8 @@ _HOW_TO_READ = (
     "the object selection misses also count as wrong; others are for all objects of the gold labels. Naming regimes "
     "mask the name of the object to ground: semantic keeps it, abbreviated drops vowels and truncates words, opaque "
     "replaces it with a number, opaque-anonymous also replaces the names of siblings and parents. Intervals are 95 % "
-    "bootstrap intervals; if a scene contains copies, use the one by distinct name."
+    "bootstrap intervals, at 0 and 100 % Wilson's; if a scene contains copies, use the one by distinct name. Coverage "
+    "is the share of all objects; there is no figure at 80 % coverage if fewer have an answer with a confidence."
 )
 _NAME_QUALITY = (
     "The study concludes that the strategy should depend on the quality of the names. Here a name is good if it "
