@@ -262,6 +262,15 @@ def test_reproduce_writes_reports_and_resumes(run, room: Path, gold: Path, tmp_p
     assert again.err.count("(stored)") == 4
 
 
+def test_reproduce_rejects_options_of_language_models_without_one(run, room: Path, gold: Path, tmp_path: Path) -> None:
+    matrix = tmp_path / "matrix.toml"
+    matrix.write_text(f'grounders = ["lexical"]\n[[scene]]\npath = "{room}"\ngold = "{gold}"\n')
+    for option in (("--objects-per-prompt", "20"), ("--thinking",), ("--replay",)):
+        done = run("eval", "reproduce", matrix, *option, "-o", tmp_path / "out")
+        assert (done.code, done.out) == (2, "")
+        assert done.err == f"usd2kg: {option[0]} needs a language model; name one with a grounder llm-B:MODEL\n"
+
+
 def test_kitchen_set_rejects_a_folder_without_root_layer(run, tmp_path: Path) -> None:
     done = run("eval", "kitchen-set", tmp_path)
     assert (done.code, done.out) == (2, "")

@@ -3,11 +3,14 @@
 import re
 from collections import defaultdict
 from collections.abc import Iterator
+from dataclasses import fields, replace
 from typing import Any
 
 import typer
 
 from usd2kg.cli.app import make_app
+from usd2kg.cli.evaluate.matrix import MatrixModelOptions
+from usd2kg.cli.options.model import ModelOptions, RequestOptions
 from usd2kg.graph.formats.serialize import GRAPH_FORMATS
 from usd2kg.graph.rdf_document import RDF_FORMATS
 from usd2kg.relations import ALL_KINDS, DEFAULT_KINDS, VIEWPOINT_KINDS
@@ -56,6 +59,18 @@ def test_help_texts_name_all_relations_and_formats():
     for command, option in (("batch", "file_format"), ("build", "output"), ("graph convert", "output")):
         assert endings <= words_of(help_of[command, option]), command
     assert {ending.removeprefix(".") for ending in RDF_FORMATS} <= words_of(help_of["graph convert", "graph"])
+
+
+def test_errors_name_the_options_of_models_as_they_are_spelled():
+    spellings = {p.name: p.opts for _, p in parameters(typer.main.get_command(make_app()))}
+    for bundle in (ModelOptions, RequestOptions, MatrixModelOptions):
+        for field in fields(bundle):
+            if field.name != "requests":
+                changed = list(replace(bundle(), **{field.name: object()}).changed_options())
+                assert set(changed) & set(spellings[field.name]) == set(changed) != set()
+    nested = replace(ModelOptions(), requests=RequestOptions(replay=True), samples=2)
+    assert list(nested.changed_options()) == ["--samples", "--replay"]
+    assert list(ModelOptions().changed_options()) == []
 
 
 def words_of(text: str) -> set[str]:

@@ -1,7 +1,7 @@
 """usd2kg eval reproduce: evaluation matrices, including that of the study, with reports."""
 
 from collections.abc import Callable, Sequence
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from itertools import count
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
@@ -22,16 +22,31 @@ if TYPE_CHECKING:
 __all__ = ["reproduce_command"]
 
 
+@dataclass(frozen=True)
+class MatrixModelOptions(RequestLimits):
+    """Requests, prompts and sampling of all language models of a matrix."""
+
+    objects_per_prompt: ObjectsPerPrompt = None
+    thinking: Thinking = False
+    temperature: Temperature = None
+
+    def settings(self, model: str) -> "LLMSettings":
+        """Return the settings of a model string."""
+        return replace(
+            super().settings(model),
+            objects_per_prompt=self.objects_per_prompt,
+            is_thinking=self.thinking,
+            temperature=self.temperature,
+        )
+
+
 @expand_bundles
 def reproduce_command(
     study: StudyOptions,
-    limits: RequestLimits,
+    asked: MatrixModelOptions,
     matrix: Annotated[
         Path | None, Argument(metavar="MATRIX", help="TOML file, see docs/evaluation.md; none with --study.")
     ] = None,
-    objects_per_prompt: ObjectsPerPrompt = None,
-    thinking: Thinking = False,
-    temperature: Temperature = None,
     output: ReportFolder = Path("results"),
     refresh: Annotated[
         bool, Option("--refresh", help="Compute every result again; default: use stored results.")
@@ -49,7 +64,7 @@ def reproduce_command(
 
     plan = _plan(matrix, study)
     if not plan.language_models:
-        limits.check_without_model(f"name one with {'--model MODEL' if study.study else 'a grounder llm-B:MODEL'}")
+        asked.check_without_model(f"name one with {'--model MODEL' if study.study else 'a grounder llm-B:MODEL'}")
     for scene in plan.scenes:
         if scene.missing is not None:
             notify(f"{scene.name} is skipped: {scene.missing} does not exist")
@@ -61,9 +76,7 @@ def reproduce_command(
         results = evaluation.run_matrix(
             plan,
             output,
-            settings=_settings(limits, study, objects_per_prompt, thinking, temperature)
-            if plan.language_models
-            else None,
+            settings=_settings(asked, study) if plan.language_models else None,
             refresh=refresh,
             progress=_report(total, progress),
             model_progress=progress.update,
@@ -96,22 +109,9 @@ def _plan(matrix: Path | None, study: StudyOptions) -> "Matrix":
     return read_matrix(matrix)
 
 
-def _settings(
-    limits: RequestLimits,
-    study: StudyOptions,
-    objects_per_prompt: int | None,
-    thinking: bool,
-    temperature: float | None,
-) -> "LLMSettings":
-    """Return the settings of all language models of a matrix."""
-    return replace(
-        limits.settings(""),
-        objects_per_prompt=objects_per_prompt,
-        is_thinking=thinking,
-        temperature=temperature,
-        # The study asks about each prim.
-        is_each_object=study.study,
-    )
+def _settings(asked: MatrixModelOptions, study: StudyOptions) -> "LLMSettings":
+    """Return the settings of all language models of a matrix; the study asks about each prim."""
+    return replace(asked.settings(""), is_each_object=study.study)
 
 
 def _check_complete(cells: "Sequence[CellResult]") -> None:

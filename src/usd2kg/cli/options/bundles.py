@@ -18,6 +18,15 @@ class OptionBundle:
     output_options: ClassVar[frozenset[str]] = frozenset()
     """Names of the options with output files; the files of other options are inputs."""
 
+    def changed_options(self) -> Iterator[str]:
+        """Yield the options that do not have their default, like `--samples`, with those of the bundles in this one."""
+        for field in fields(self):  # type: ignore[arg-type]
+            value = getattr(self, field.name)
+            if isinstance(value, OptionBundle):
+                yield from value.changed_options()
+            elif value != field.default:
+                yield f"--{field.name.replace('_', '-')}"
+
 
 def check_files(outputs: Iterable[Path | None], inputs: Iterable[Path | None], *bundles: OptionBundle) -> None:
     """Check that a command overwrites none of its input files, given directly or in a bundle.

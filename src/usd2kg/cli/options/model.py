@@ -114,20 +114,13 @@ class RequestLimits(OptionBundle):
         )
 
     def check_without_model(self, how_to_name_one: str = "name one with --model MODEL") -> None:
-        """Check that no option is given that has an effect on language models only.
+        """Check that no option is given: all of them have an effect on language models only.
 
         Raises:
             GroundingError: one is given.
         """
-        given = {
-            "--budget": self.budget is not None,
-            "--price": self.price is not None,
-            "--requests-per-minute": self.requests_per_minute is not None,
-            "--batch": self.batch,
-        }
-        for option, is_given in given.items():
-            if is_given:
-                raise GroundingError(f"{option} needs a language model; {how_to_name_one}")
+        for option in self.changed_options():
+            raise GroundingError(f"{option} needs a language model; {how_to_name_one}")
 
 
 @dataclass(frozen=True)
@@ -142,16 +135,6 @@ class RequestOptions(RequestLimits):
     def settings(self, model: str) -> "LLMSettings":
         """Return the settings of a model string, with defaults for prompts and sampling."""
         return replace(super().settings(model), is_refreshed=self.refresh)
-
-    def check_without_model(self, how_to_name_one: str = "name one with --model MODEL") -> None:
-        """Check that no option is given that has an effect on language models only.
-
-        Raises:
-            GroundingError: one is given.
-        """
-        if self.dry_run:
-            raise GroundingError(f"--dry-run needs a language model; {how_to_name_one}")
-        super().check_without_model(how_to_name_one)
 
 
 @dataclass(frozen=True)
@@ -241,19 +224,10 @@ class ModelOptions(OptionBundle):
         )
 
     def check_without_model(self) -> None:
-        """Check that no option is given that has an effect on language models only.
+        """Check that no option is given: all of them have an effect on language models only.
 
         Raises:
             GroundingError: one is given.
         """
-        how_to_name_one = "name one with --grounder llm-B:MODEL"
-        self.requests.check_without_model(how_to_name_one)
-        given = {
-            "--cascade": self.cascade is not None,
-            "--thumbnails": self.thumbnails,
-            "--examples": self.examples > 0,
-            "--write-alignment": self.write_alignment is not None,
-        }
-        for option, is_given in given.items():
-            if is_given:
-                raise GroundingError(f"{option} needs a language model; {how_to_name_one}")
+        for option in self.changed_options():
+            raise GroundingError(f"{option} needs a language model; name one with --grounder llm-B:MODEL")
