@@ -199,7 +199,11 @@ class TestTraffic:
             assert server.most_at_once == most
 
     def test_replay_sends_no_request(self, run: Run, kitchen: Path):
-        done = run("ground", kitchen, "--grounder", "llm-A:openai:gpt-4o", "--replay")
+        with serve(openai_reply(cup())) as server:
+            model = f"llm-A:openai:test@{server.url}/v1"
+            run("ground", kitchen, "--grounder", model)
+            done = run("ground", kitchen, "--grounder", model, "--replay")
+            assert len(server.received) == 2
         assert "; 0 requests sent, 0 retried, 0 waits of 0.0 s in total; " in done.err
 
 
@@ -318,9 +322,23 @@ def test_replays_a_recording_without_key_or_server(run: Run, kitchen: Path, monk
     assert "2 new completions" in imported.err
     again = run("ground", kitchen, "--grounder", model, "--replay", "--completions", "elsewhere.sqlite")
     assert again.out == first.out
-    empty = run("ground", kitchen, "--grounder", model, "--replay", "--completions", "empty.sqlite", "--format", "json")
+    other = model.replace("openai:test", "openai:other")
+    empty = run(
+        "ground", kitchen, "--grounder", other, "--replay", "--completions", "elsewhere.sqlite", "--format", "json"
+    )
     explanations = {found["explanation"] for found in json.loads(empty.out)["predictions"]}
     assert any("leave out --replay to ask it" in text for text in explanations)
+
+
+def test_rejects_a_cache_that_does_not_exist(run: Run, kitchen: Path):
+    said = "usd2kg: none.sqlite: no such cache of completions; correct --completions or USD2KG_CACHE\n"
+    for command in (
+        ("completions", "export", "e.jsonl"),
+        ("ground", kitchen, "--grounder", "llm-A:openai:gpt-4o", "--replay"),
+    ):
+        done = run(*command, "--completions", "none.sqlite")
+        assert (done.code, done.out, done.err) == (2, "", said)
+    assert list(Path().iterdir()) == []
 
 
 def test_build_and_eval_run_accept_a_model(run: Run, kitchen: Path):

@@ -77,7 +77,7 @@ def test_reads_scaling_files_and_rejects_malformed_ones(tmp_path: Path):
     path = tmp_path / "calibration.json"
     scaling = PlattScaling(-0.25, 1.5, "llm, semantic names", 200)
     path.write_text(scaling.as_json(), "utf-8")
-    assert read_scaling(path) == scaling
+    assert read_scaling(path) == read_scaling(str(path)) == scaling
     path.write_text(scaling.as_json().replace("1.5", "NaN"), "utf-8")
     with pytest.raises(GroundingError, match="not finite"):
         read_scaling(path)

@@ -1,16 +1,19 @@
 """Gold files, joining them with predictions, the summary of a run, and result files."""
 
 import json
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
 
 from tests.evaluation.records import E, grounding_of, label, small_tbox
+from tests.grounding.records import make_object, make_scene
 from usd2kg.errors import EvaluationError
 from usd2kg.evaluation import evaluation_json, join_scores, read_gold
 from usd2kg.evaluation.run import score_grounding
 from usd2kg.evaluation.score import distinct_name
 from usd2kg.evaluation.stored import read_run
+from usd2kg.evaluation.template import gold_template
 from usd2kg.grounding import Status
 
 TBOX = small_tbox()
@@ -27,10 +30,27 @@ def test_reads_gold_with_iris_or_local_names(tmp_path: Path) -> None:
     assert read_gold(path, TBOX) == (label("/a", "Cup", "Bowl|Spoon"), label("/b", "Wall"))
 
 
+def test_reads_a_path_given_as_text(tmp_path: Path) -> None:
+    assert read_gold(str(_write(tmp_path, "path,class\n/a,Cup\n")), TBOX) == (label("/a", "Cup"),)
+
+
 def test_reads_gold_written_by_spreadsheets(tmp_path: Path) -> None:
     path = tmp_path / "gold.csv"
     path.write_bytes(b'\xef\xbb\xbfpath,class,also,words\r\n/a, Cup ,"Cup|Bowl",a cup\r\n')
     assert read_gold(path, TBOX) == (label("/a", "Cup", "Bowl"),)
+
+
+def test_reads_gold_with_empty_surplus_cells(tmp_path: Path) -> None:
+    assert read_gold(_write(tmp_path, "path,class\n/a,Cup,, \n"), TBOX) == (label("/a", "Cup"),)
+
+
+def test_reads_its_template_whatever_the_documentation_contains(tmp_path: Path) -> None:
+    described = replace(make_object("/a"), documentation='one\u2028two\x85three\x0cfour\x0bfive\r\nsix, "seven"')
+    template = gold_template(make_scene(described, make_object("/b")))
+    filled = template.replace("/a,,", "/a,Cup,").replace("/b,,", "/b,Bowl,")
+    path = tmp_path / "gold.csv"
+    path.write_bytes(filled.encode())
+    assert read_gold(path, TBOX) == (label("/a", "Cup"), label("/b", "Bowl"))
 
 
 @pytest.mark.parametrize(
@@ -43,6 +63,11 @@ def test_reads_gold_written_by_spreadsheets(tmp_path: Path) -> None:
         ("path,class\n/a,Cup\n/a,Bowl\n", r"/a has more than one row"),
         ("path,class\n", r"contains no label"),
         ("path,class,also\n/a,Cup,Bowl|Nope\n", r"line 2: .*'Nope'"),
+        ("path,class,also\n/a,Cup,Bowl,Spoon\n", r"line 2: /a has more cells than line 1 has columns; separate second"),
+        ("path,class\n/a,Cup\n/b,Cup,Bowl\n", r"line 3: /b has more cells than line 1 has columns"),
+        ("path,class,Also\n/a,Cup,Bowl\n", r"line 1 has the column 'Also'; expected 'also' for second labels, or"),
+        ("path,class, also\n/a,Cup,Bowl\n", r"line 1 has the column ' also'; expected 'also'"),
+        ("path,class,also_classes\n/a,Cup,Bowl\n", r"line 1 has the column 'also_classes'; expected 'also'"),
     ],
 )
 def test_rejects_malformed_gold_with_its_line(tmp_path: Path, text: str, said: str) -> None:

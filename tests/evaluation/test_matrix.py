@@ -85,6 +85,13 @@ def test_rejects_repeats_at_temperature_0(matrix: Path, tmp_path: Path) -> None:
     )
 
 
+def test_paths_may_be_text(matrix: Path, tmp_path: Path) -> None:
+    plan = read_matrix(str(matrix))
+    assert plan == read_matrix(matrix)
+    run_matrix(plan, str(tmp_path / "out"))
+    assert list((tmp_path / "out/runs").iterdir())
+
+
 def test_ablation_adds_the_studys_conditions_and_ours(matrix: Path) -> None:
     matrix.write_text(matrix.read_text().replace("repeats = 2", "ablation = true"))
     cells = [cell for cell in read_matrix(matrix).cells() if cell.scene.name == "room"]

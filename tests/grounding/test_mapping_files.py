@@ -15,11 +15,13 @@ from usd2kg.errors import GroundingError
 from usd2kg.grounding import (
     Candidate,
     Concept,
+    Decision,
     Grounding,
     Prediction,
     Review,
     Status,
     format_mapping,
+    read_decisions,
     read_grounding,
     read_paths,
 )
@@ -280,3 +282,12 @@ class TestPaths:
         # The rest of the file is one field, longer than the csv module allows (131,072 characters).
         with pytest.raises(GroundingError, match=r"paths\.csv"):
             self.read(tmp_path, 'path\n"/a\n' + "/Room/Cup\n" * 20_000)
+
+
+def test_paths_of_files_may_be_text(tmp_path: Path):
+    grounding, table = tmp_path / "grounding.json", tmp_path / "table.csv"
+    grounding.write_text(format_mapping(SMALL, TBOX, "json"), "utf-8")
+    table.write_text(f"path,class\n/a,{LAB}Cup\n", "utf-8")
+    assert read_grounding(str(grounding)) == SMALL
+    assert read_paths(str(table)) == ["/a"]
+    assert read_decisions(str(table), TBOX) == {"/a": Decision(LAB + "Cup")}

@@ -29,7 +29,7 @@ def export_completions(
     """Write all cached completions to a recording, which others can replay without keys."""
     from usd2kg.grounding.llm.cache import CompletionCache, default_cache_path  # noqa: PLC0415
 
-    with CompletionCache(completions or default_cache_path()) as cache:
+    with CompletionCache(completions or default_cache_path(), creates=False) as cache:
         notify(f"{cache.export_recording(recording)} completions written to {recording}")
 
 

@@ -1,10 +1,12 @@
 """Gold labels: the class of each prim according to a person."""
 
 import csv
+import io
 import logging
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
 from usd2kg.errors import EvaluationError, OntologyError
 from usd2kg.ontology import ClassIRI, TBox
@@ -16,6 +18,7 @@ logger = logging.getLogger(__name__)
 
 _HEADER = "path,class,also"
 _REQUIRED_COLUMNS = ("path", "class")
+_SECOND_LABELS = "also"
 
 
 @dataclass(frozen=True, slots=True)
@@ -28,19 +31,22 @@ class GoldLabel:
     """Other defensible classes, excluding the target."""
 
 
-def read_gold(path: Path, tbox: TBox) -> tuple[GoldLabel, ...]:
+def read_gold(path: Path | str, tbox: TBox) -> tuple[GoldLabel, ...]:
     """Return the labels of a CSV file `path,class,also`, in file order.
 
-    Classes are IRIs, CURIEs or local names that are unique in the scope. `also` is a `|`-separated list.
+    Classes are IRIs, CURIEs or local names that are unique in the scope. `also` is a `|`-separated list. Other columns
+    are ignored, unless their name begins like `also`.
 
     Raises:
-        EvaluationError: the file cannot be read, a column is missing, a class is not in scope, or a path is repeated.
+        EvaluationError: the file cannot be read, a column is missing or misspelt, a row has more cells than columns, a
+            class is not in scope, or a path is repeated.
     """
+    path = Path(path)
     try:
         text = path.read_text("utf-8-sig")
     except (OSError, UnicodeDecodeError) as error:
         raise EvaluationError(f"{path}: cannot be read as gold labels ({error}); expected CSV {_HEADER}") from error
-    rows = csv.DictReader(text.splitlines())
+    rows = csv.DictReader(io.StringIO(text, newline=""))
     try:
         return _read_rows(path, rows, tbox)
     except csv.Error as error:
@@ -52,6 +58,10 @@ def _read_rows(path: Path, rows: "csv.DictReader[str]", tbox: TBox) -> tuple[Gol
     if not set(columns).issuperset(_REQUIRED_COLUMNS):
         found = f"the columns {', '.join(columns)}" if columns else "no columns"
         raise EvaluationError(f"{path}: line 1 has {found}; expected {_HEADER}")
+    for name in columns:
+        if name != _SECOND_LABELS and name.strip().casefold().startswith(_SECOND_LABELS):
+            expected = f"expected {_SECOND_LABELS!r} for second labels, or another name"
+            raise EvaluationError(f"{path}: line 1 has the column {name!r}; {expected}")
     labels = [_label(path, rows.line_num, row, tbox) for row in rows if (row["path"] or "").strip()]
     _check_unique(path, labels)
     if not labels:
@@ -59,14 +69,20 @@ def _read_rows(path: Path, rows: "csv.DictReader[str]", tbox: TBox) -> tuple[Gol
     return tuple(labels)
 
 
-def _label(path: Path, line: int, row: dict[str, str | None], tbox: TBox) -> GoldLabel:
+def _label(path: Path, line: int, row: Mapping[str | None, Any], tbox: TBox) -> GoldLabel:
     prim_path = (row["path"] or "").strip()
     name = (row["class"] or "").strip()
+    # DictReader keeps the cells beyond the last column as a list, under the key None.
+    if any(cell.strip() for cell in row.get(None) or ()):
+        raise EvaluationError(
+            f"{path}: line {line}: {prim_path} has more cells than line 1 has columns; separate second labels with |, "
+            "and put quotes around a cell with a comma"
+        )
     if not name:
         raise EvaluationError(f"{path}: line {line}: {prim_path} has no class; fill it in or remove the row")
     try:
         target = tbox.resolve(name)
-        also = frozenset(tbox.resolve(part) for part in (row.get("also") or "").split("|") if part.strip())
+        also = frozenset(tbox.resolve(part) for part in (row.get(_SECOND_LABELS) or "").split("|") if part.strip())
     except OntologyError as error:
         raise EvaluationError(f"{path}: line {line}: {error}") from error
     return GoldLabel(prim_path, target, also - {target})

@@ -127,13 +127,14 @@ class Matrix:
                 yield Cell(scene, grounder, name, regime, evidence, repeat, cascade)
 
 
-def read_matrix(path: Path) -> Matrix:
+def read_matrix(path: Path | str) -> Matrix:
     """Return the matrix in a TOML file; its paths are relative to the file.
 
     Raises:
         EvaluationError: the file cannot be read, or has an unknown key, grounder or regime, a value of another
             type, or two scenes of one name.
     """
+    path = Path(path)
     try:
         data = tomllib.loads(path.read_text("utf-8"))
     except (OSError, UnicodeDecodeError, RecursionError, tomllib.TOMLDecodeError) as error:

@@ -62,7 +62,7 @@ class SceneResult:
 
 def run_matrix(
     matrix: Matrix,
-    folder: Path,
+    folder: Path | str,
     *,
     settings: "LLMSettings | None" = None,
     refresh: bool = False,
@@ -89,6 +89,7 @@ def run_matrix(
     Raises:
         Usd2kgError: a scene, its gold labels or a model cannot be opened.
     """
+    folder = Path(folder)
     (folder / "runs").mkdir(parents=True, exist_ok=True)
     by_scene: dict[SceneSpec, list[Cell]] = {}
     for cell in matrix.cells():

@@ -34,7 +34,7 @@ _EXPECTED = "expected CSV with the columns path and decision (or class)"
 _QUEUE_COLUMNS = ("path", "decision", "reviewer", "comment", "answer", "confidence", "alternatives", "explanation")
 
 
-def read_decisions(path: Path, tbox: TBox) -> dict[str, Decision]:
+def read_decisions(path: Path | str, tbox: TBox) -> dict[str, Decision]:
     """Return prim path → decision from a CSV file, without the rows whose decision is empty.
 
     The class is in the column `decision`, or else `class`: an IRI, a CURIE, a unique local name or label, or `none`.
@@ -44,6 +44,7 @@ def read_decisions(path: Path, tbox: TBox) -> dict[str, Decision]:
     Raises:
         GroundingError: the file cannot be read, a column is missing, a class is not in scope, or a prim has two.
     """
+    path = Path(path)
     try:
         text = path.read_text("utf-8-sig")
         if is_sssom(path):

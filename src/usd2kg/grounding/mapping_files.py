@@ -64,12 +64,13 @@ def _number(confidence: float | None) -> str:
     return "" if confidence is None else f"{confidence:.4f}"
 
 
-def read_grounding(path: Path) -> Grounding:
+def read_grounding(path: Path | str) -> Grounding:
     """Return the grounding in a JSON file that `format_mapping` wrote.
 
     Raises:
         GroundingError: the file is missing or has another format.
     """
+    path = Path(path)
     try:
         data = json.loads(path.read_text("utf-8"))
         if data.pop("format") != _FORMAT:
@@ -100,12 +101,13 @@ def _read_concept(item: dict[str, Any]) -> Concept:
     return Concept(**{**item, "broader": tuple(item["broader"])})
 
 
-def read_paths(path: Path) -> list[str]:
+def read_paths(path: Path | str) -> list[str]:
     """Return the prim paths in the column `path` of a CSV file, in order, without duplicates.
 
     Raises:
         GroundingError: the file cannot be read or has no such column.
     """
+    path = Path(path)
     try:
         rows = csv.DictReader(path.read_text("utf-8-sig").splitlines())
     except (OSError, UnicodeDecodeError) as error:

@@ -56,12 +56,13 @@ def logit(confidence: float) -> float:
     return math.log(clipped / (1 - clipped))
 
 
-def read_scaling(path: Path) -> PlattScaling:
+def read_scaling(path: Path | str) -> PlattScaling:
     """Return the scaling in a file that `usd2kg eval calibrate` wrote.
 
     Raises:
         GroundingError: the file is missing or has another format.
     """
+    path = Path(path)
     try:
         data = json.loads(path.read_text("utf-8"))
         if data.pop("format") != _FORMAT:

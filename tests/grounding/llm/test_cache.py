@@ -219,3 +219,13 @@ def test_reports_a_missing_home_folder(monkeypatch):
     monkeypatch.setattr(Path, "home", no_home)
     with pytest.raises(GroundingError, match=r"home directory.*set USD2KG_CACHE"):
         default_cache_path()
+
+
+def test_opens_only_an_existing_cache_if_it_may_not_create_one(tmp_path: Path):
+    path = tmp_path / "folder" / "cache.sqlite"
+    with pytest.raises(GroundingError) as caught:
+        CompletionCache(path, creates=False)
+    assert str(caught.value) == f"{path}: no such cache of completions; correct --completions or USD2KG_CACHE"
+    assert not path.parent.exists()
+    CompletionCache(path).close()
+    CompletionCache(path, creates=False).close()

@@ -84,11 +84,20 @@ class CompletionCache:
     path: Path
     """The file, with symbolic links resolved."""
 
-    def __init__(self, path: Path) -> None:
-        """Open or create the cache, readable only by the user, and its parent folders."""
+    def __init__(self, path: Path, *, creates: bool = True) -> None:
+        """Open the cache.
+
+        Args:
+            path: the file.
+            creates: create the file, readable only by the user, and its parent folders if it does not exist; otherwise
+                that is a GroundingError.
+        """
         self.path = path.resolve()
         self._lock = RLock()
-        _create_file(self.path)
+        if creates:
+            _create_file(self.path)
+        elif not self.path.exists():
+            raise GroundingError(f"{path}: no such cache of completions; correct --completions or USD2KG_CACHE")
         with self._translated(), ExitStack() as unless_ready:
             self._connection = sqlite3.connect(
                 self.path, timeout=LIMITS.cache_busy_s, isolation_level=None, check_same_thread=False

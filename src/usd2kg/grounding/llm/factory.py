@@ -107,8 +107,8 @@ def open_llm_grounder(
 
     Raises:
         GroundingError: the model is unknown, a key is missing, the cache cannot be opened, the price is malformed,
-            there is a budget in dollars but no known price, the service has no batch jobs, or the calibration was
-            fitted for another model or other prompts.
+            there is a budget in dollars but no known price, the service has no batch jobs, the calibration was
+            fitted for another model or other prompts, or the cache to replay does not exist.
     """
     with ExitStack() as stack:
         client = _open_metered_client(settings, stack, reporting, is_dry=is_dry)
@@ -223,7 +223,8 @@ def _open_metered_client(
     budget = Budget(settings.token_budget, settings.budget)
     if is_dry:
         return MeteredClient(_OfflineClient(settings.model), tariff=tariff, budget=budget)
-    cache = stack.enter_context(CompletionCache(settings.completions or default_cache_path()))
+    path = settings.completions or default_cache_path()
+    cache = stack.enter_context(CompletionCache(path, creates=not settings.is_replayed))
     client, traffic = _open_client(settings, stack)
     queue = (
         _open_queue(settings, client, cache, reporting) if settings.is_batched and not settings.is_replayed else None
