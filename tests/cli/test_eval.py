@@ -110,6 +110,43 @@ def test_volume_grounder_reads_class_sizes(run, room: Path, gold: Path, tmp_path
     assert (refused.code, "takes no class sizes" in refused.err) == (2, True)
 
 
+def test_scores_answers_of_a_file(run, room: Path, gold: Path, tmp_path: Path) -> None:
+    answers, stored = tmp_path / "mine.csv", tmp_path / "mine.json"
+    answers.write_text("path,class,confidence\n/Room/Table_1,Table,0.9\n/Room/Apple,Bowl,0.5\n", encoding="utf-8")
+    done = run("eval", "run", room, "--gold", gold, "--predictions", answers, "-o", stored, "--json")
+    data = json.loads(done.out)
+    assert done.err == f"{answers}: no row for 2 of 3 gold paths, /Room/coffee_mug for one; they count as wrong\n"
+    assert (data["grounder"], data["n"], data["answered"], data["ema"]) == ("mine.csv", 3, 1, pytest.approx(100 / 3))
+    assert [score["confidence"] for score in data["scores"]] == [0.9, None, None]
+    assert "seconds" not in run("eval", "run", room, "--gold", gold, "--predictions", answers).out
+    run("eval", "run", room, "--gold", gold, "-o", tmp_path / "lexical.json")
+    compared = run("eval", "compare", stored, tmp_path / "lexical.json")
+    assert compared.code == 0
+    assert f"{stored}: mine.csv, unknown names, evidence unknown\n" in compared.out
+
+
+@pytest.mark.parametrize("ending", ["csv", "json", "tsv"])
+def test_scores_the_files_of_ground(run, room: Path, gold: Path, tmp_path: Path, ending: str) -> None:
+    answers = tmp_path / f"mine.{ending}"
+    assert run("ground", room, "-o", answers).code == 0
+    found = json.loads(run("eval", "run", room, "--gold", gold, "--predictions", answers, "--json").out)
+    direct = json.loads(run("eval", "run", room, "--gold", gold, "--json").out)
+    assert [score["answer"] for score in found["scores"]] == [score["answer"] for score in direct["scores"]]
+    for mine, own in zip(found["scores"], direct["scores"], strict=True):
+        assert mine["confidence"] == pytest.approx(own["confidence"], abs=1e-4)
+
+
+def test_rejects_answers_of_another_scene_and_options_of_grounders(run, room: Path, gold: Path, tmp_path: Path) -> None:
+    answers = tmp_path / "mine.csv"
+    answers.write_text("path,class\n/Flat/Sofa,Sofa\n", encoding="utf-8")
+    done = run("eval", "run", room, "--gold", gold, "--predictions", answers)
+    assert (done.code, done.out) == (2, "")
+    assert f"{answers}: has no row for the 3 gold paths; expected the answers for this scene" in done.err
+    done = run("eval", "run", room, "--gold", gold, "--predictions", answers, "--grounder", "volume")
+    assert done.code == 2
+    assert done.err == f"usd2kg: {answers}: the answers exist and no grounder is asked; leave out --grounder\n"
+
+
 def test_compare_lists_differing_objects(run, room: Path, gold: Path, tmp_path: Path) -> None:
     for name, grounder in (("a.json", "lexical"), ("b.json", "dictionary")):
         assert run("eval", "run", room, "--gold", gold, "--grounder", grounder, "-o", tmp_path / name).code == 0

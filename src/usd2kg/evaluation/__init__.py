@@ -3,7 +3,8 @@
 from usd2kg.evaluation.calibrate import fit_scaling
 from usd2kg.evaluation.gold import GoldLabel, read_gold
 from usd2kg.evaluation.matrix import Matrix, read_matrix
-from usd2kg.evaluation.run import Evaluation, evaluate, evaluation_json, score_scene_selection
+from usd2kg.evaluation.predictions import read_predictions
+from usd2kg.evaluation.run import Evaluation, evaluate, evaluation_json, score_grounding, score_scene_selection
 from usd2kg.evaluation.run_matrix import CellResult, SceneResult, run_matrix
 from usd2kg.evaluation.score import Score, join_scores
 from usd2kg.evaluation.summary import Summary, summarize_scores
@@ -22,7 +23,9 @@ __all__ = [
     "join_scores",
     "read_gold",
     "read_matrix",
+    "read_predictions",
     "run_matrix",
+    "score_grounding",
     "score_scene_selection",
     "summarize_scores",
 ]

@@ -1,5 +1,6 @@
 """Evaluation of one grounder on one scene, under one naming regime and set of evidence groups."""
 
+import math
 import time
 from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass
@@ -30,7 +31,7 @@ class Evaluation:
     end_to_end: Summary
     """Summary in which objects that the object selection misses count as wrong."""
     seconds: float
-    """Wall time of grounding the labelled objects, without reading the scene."""
+    """Wall time of grounding the labelled objects, without reading the scene; NaN if unknown."""
 
 
 def evaluate(
@@ -65,7 +66,12 @@ def evaluate(
 
 
 def score_grounding(
-    grounding: Grounding, gold: Sequence[GoldLabel], tbox: TBox, seconds: float, *, missed: Collection[str] = ()
+    grounding: Grounding,
+    gold: Sequence[GoldLabel],
+    tbox: TBox,
+    seconds: float = math.nan,
+    *,
+    missed: Collection[str] = (),
 ) -> Evaluation:
     """Return the evaluation of an existing grounding.
 
@@ -73,7 +79,7 @@ def score_grounding(
         grounding: the answers.
         gold: the labels.
         tbox: the classes.
-        seconds: the time that the grounding took.
+        seconds: the time that the grounding took; NaN if unknown.
         missed: prim paths of labelled objects that the object selection misses, see `score_scene_selection`.
     """
     scores = join_scores(gold, grounding)
@@ -94,7 +100,7 @@ def evaluation_json(evaluation: Evaluation, selection: SelectionScore | None = N
     data: dict[str, Any] = {
         **evaluation.summary.as_json(),
         "end_to_end": {key: evaluation.end_to_end.as_json()[key] for key in _END_TO_END},
-        "seconds": evaluation.seconds,
+        "seconds": None if math.isnan(evaluation.seconds) else evaluation.seconds,
         "scene": grounding.scene,
         "scene_hash": grounding.scene_hash,
         "ontology": grounding.ontology,

@@ -81,7 +81,12 @@ def describe_runs(runs: Sequence[StoredRun]) -> list[str]:
     """Return the description of each run with all further settings in which the runs differ."""
     keys = sorted({key for run in runs for key in run.settings} - _DESCRIBED)
     differing = [key for key in keys if len({run.settings.get(key) for run in runs}) > 1]
-    shown = [[f"{key} {run.settings.get(key, 'default')}" for key in differing] for run in runs]
+    # A setting that a run of the same grounder lacks has its default there.
+    known = {(run.grounder, key) for run in runs for key in run.settings}
+    shown = [
+        [f"{key} {run.settings.get(key, 'default')}" for key in differing if (run.grounder, key) in known]
+        for run in runs
+    ]
     return [", ".join((run.description, *settings)) for run, settings in zip(runs, shown, strict=True)]
 
 

@@ -27,7 +27,8 @@ def make_grounder(
     """Return the grounder called `name`.
 
     Args:
-        name: one of `GROUNDERS`, or a strategy and a language model: `llm-B:google:gemini-2.5-flash`.
+        name: one of `GROUNDERS`, or a strategy and a language model: `llm-B:google:gemini-2.5-flash`, with the default
+            settings; `usd2kg.grounding.llm.factory.open_llm_grounder` takes others.
         dictionary: for `dictionary`, a CSV file with the columns `name,class`.
         class_sizes: for `volume`, a CSV file of typical sizes.
         abstains: for `lexical`, choose a superclass where the candidates disagree.

@@ -1,6 +1,8 @@
 """usd2kg eval run: evaluation of one grounder on one scene."""
 
 import json as jsonlib
+import math
+from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
@@ -10,13 +12,14 @@ from usd2kg.cli.grounder_session import open_grounder_session, show_progress
 from usd2kg.cli.options.bundles import check_files, expand_bundles
 from usd2kg.cli.options.common import JsonOutput, OntologyFile, SceneFile
 from usd2kg.cli.options.grounding import AbbreviatedLength, GroundingOptions
-from usd2kg.cli.output import emit, format_optional, print_json
+from usd2kg.cli.output import emit, format_optional, notify, print_json
 from usd2kg.cli.text_table import format_table
 from usd2kg.errors import EvaluationError
 
 if TYPE_CHECKING:
-    from usd2kg.evaluation import Evaluation, Score
+    from usd2kg.evaluation import Evaluation, GoldLabel, Score
     from usd2kg.evaluation.metrics.selection_scores import SelectionScore
+    from usd2kg.grounding import Grounding
     from usd2kg.ontology import TBox
 
 __all__ = ["run_command"]
@@ -29,13 +32,21 @@ def run_command(
     grounding: GroundingOptions,
     ontology: OntologyFile = None,
     abbreviated_length: AbbreviatedLength = 4,
+    predictions: Annotated[
+        Path | None,
+        Option(
+            "--predictions",
+            help="Answers to score instead of a grounder's: CSV path,class,confidence, or the JSON or SSSOM (.tsv) of "
+            "usd2kg ground; default: ask the grounder.",
+        ),
+    ] = None,
     output: Annotated[
         Path | None,
         Option("--output", "-o", help="JSON file of the run, for eval compare and eval calibrate; default: none."),
     ] = None,
     json: JsonOutput = False,
 ) -> None:
-    """Evaluate one grounder on one scene."""
+    """Evaluate one grounder, or the answers in a file, on one scene."""
     from usd2kg import evaluation  # noqa: PLC0415 - loads OpenUSD, too slow for --help
     from usd2kg.evaluation.gold import check_gold  # noqa: PLC0415
     from usd2kg.files import check_writable  # noqa: PLC0415
@@ -46,12 +57,22 @@ def run_command(
         raise EvaluationError("--dry-run prints the prompts of one scene; use it with usd2kg ground")
     if output is not None:
         check_writable(output)
-    check_files([output], [scene, gold, ontology], grounding)
+    if predictions is not None:
+        for option in grounding.changed_options():
+            raise EvaluationError(f"{predictions}: the answers exist and no grounder is asked; leave out {option}")
+    check_files([output], [scene, gold, ontology, predictions], grounding)
     evidence, regime = grounding.evidence_groups, grounding.naming_regime
     tbox = open_tbox(ontology)
     labels = evaluation.read_gold(gold, tbox)
     found = read_scene(scene, paths=[label.prim_path for label in labels])
     check_gold(gold, labels, found)
+    selection = evaluation.score_scene_selection(found, labels)
+    if predictions is not None:
+        answers = evaluation.read_predictions(predictions, found, tbox)
+        _check_answered(predictions, answers, labels)
+        result = evaluation.score_grounding(answers, labels, tbox, missed=selection.missed)
+        _emit_evaluation(result, selection, tbox, output, json)
+        return
     with (
         show_progress(grounding, "ground", is_wanted=not json),
         open_grounder_session(grounding, found, tbox, scene, ReadOptions()) as session,
@@ -66,15 +87,37 @@ def run_command(
             decisions=session.decisions,
             abbreviated_length=abbreviated_length,
         )
-    selection = evaluation.score_scene_selection(found, labels)
-    data = evaluation.evaluation_json(result, selection)
+    _emit_evaluation(result, selection, tbox, output, json)
+    session.report(result.grounding, tbox)
+
+
+def _check_answered(file: Path, answers: "Grounding", labels: "Sequence[GoldLabel]") -> None:
+    """Check that a file of answers has rows for gold paths, and print to stderr for how many it has none.
+
+    Raises:
+        EvaluationError: it has none for all of them.
+    """
+    absent = [label.prim_path for label in labels if label.prim_path not in answers.by_path]
+    count = len(labels)
+    if len(absent) == count:
+        raise EvaluationError(f"{file}: has no row for the {count} gold paths; expected the answers for this scene")
+    if absent:
+        notify(f"{file}: no row for {len(absent)} of {count} gold paths, {absent[0]} for one; they count as wrong")
+
+
+def _emit_evaluation(
+    result: "Evaluation", selection: "SelectionScore", tbox: "TBox", output: Path | None, is_json: bool
+) -> None:
+    """Print an evaluation, and write it to the output file if there is one."""
+    from usd2kg.evaluation import evaluation_json  # noqa: PLC0415
+
+    data = evaluation_json(result, selection)
     if output is not None:
         emit(jsonlib.dumps(data, indent=1, ensure_ascii=False) + "\n", output)
-    if json:
+    if is_json:
         print_json(data)
     else:
         emit(_evaluation_text(result, selection, tbox) + _tiers_text(result))
-    session.report(result.grounding, tbox)
 
 
 def _evaluation_text(result: "Evaluation", selection: "SelectionScore", tbox: "TBox") -> str:
@@ -101,7 +144,7 @@ def _evaluation_text(result: "Evaluation", selection: "SelectionScore", tbox: "T
         ("  accepting a second label %", format_optional(s.accepted_at_80, ".1f") or "none", too_few),
         ("object selection recall", f"{selection.recall:.3f}", None),
         ("object selection precision", format_optional(selection.precision, ".3f"), "if the gold labels are complete"),
-        ("seconds", f"{result.seconds:.3f}", None),
+        *([] if math.isnan(result.seconds) else [("seconds", f"{result.seconds:.3f}", None)]),
     ]
     misses = [(kind, str(count), None) for kind, count in s.misses.items() if count]
     wrong = [
