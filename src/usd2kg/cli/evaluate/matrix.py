@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     from usd2kg.evaluation import CellResult, Matrix
     from usd2kg.grounding.llm.factory import LLMSettings
 
-__all__ = ["reproduce_command"]
+__all__ = ["MatrixModelOptions", "reproduce_command"]
 
 
 @dataclass(frozen=True)
