@@ -30,13 +30,13 @@ async function show({ client, scene, states, picture }: Start, open: Open): Prom
     render(<App store={store} firstPicture={firstPicture} />, host);
     void store.loadQueue();
     const handlers = {
-      onChange: (change: ChangeEvent) => store.receive(change),
-      onOutputs: (outputs: Outputs) => store.receiveOutputs(outputs),
-      onSuggestions: (event: SuggestionsEvent) => store.receiveSuggestions(event),
-      onLink: (isConnected: boolean) => store.setConnected(isConnected),
+      onChange: (change: ChangeEvent) => store.server.receive(change),
+      onOutputs: (outputs: Outputs) => store.server.receiveOutputs(outputs),
+      onSuggestions: (event: SuggestionsEvent) => store.server.receiveSuggestions(event),
+      onLink: (isConnected: boolean) => store.server.setConnected(isConnected),
       onDenied: () => askForKey("The studio was restarted with another key.", open),
     };
-    void listen(client, () => store.version.value, handlers, new AbortController().signal);
+    void listen(client, () => store.server.version.value, handlers, new AbortController().signal);
   } catch (error) {
     (await picture)?.remove();
     if (error instanceof ApiFailure && error.status === 401) askForKey("This key is wrong.", open);

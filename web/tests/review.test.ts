@@ -79,16 +79,20 @@ describe("store", () => {
     await store.loadQueue();
     store.goTo("/K/Table/Cup_1");
     const done = store.decide(store.targets.value, "confirm");
-    expect([store.states.value[1]?.state, store.saving.value]).toEqual(["confirmed", "saving"]);
+    expect([store.states.value[1]?.state, store.server.saving.value]).toEqual(["confirmed", "saving"]);
     await done;
-    expect([store.saving.value, store.canUndo.value, store.groupId.value]).toEqual(["saved", true, "/K/wall"]);
+    expect([store.server.saving.value, store.server.canUndo.value, store.groupId.value]).toEqual([
+      "saved",
+      true,
+      "/K/wall",
+    ]);
   });
 
   it("takes a decision back that the server refuses", async () => {
     const store = makeStore(() => Promise.reject(new ApiFailure("no space left", 422)));
     await store.loadQueue();
     await store.decide([1], "confirm");
-    expect([store.states.value[1]?.state, store.saving.value]).toEqual(["suggested", "failed"]);
+    expect([store.states.value[1]?.state, store.server.saving.value]).toEqual(["suggested", "failed"]);
     expect(store.notices.value.at(-1)?.text).toBe("Not saved: Cup_1 (no space left)");
   });
 
@@ -97,13 +101,13 @@ describe("store", () => {
     const store = makeStore(post);
     await store.loadQueue();
     const change = { version: 1, reviewer: "", page: "p", message: "", can_undo: false, can_redo: false };
-    store.receive({ ...change, states: [makeState(3, { state: "failed", suggested: -1, class: -1 })] });
+    store.server.receive({ ...change, states: [makeState(3, { state: "failed", suggested: -1, class: -1 })] });
     store.goTo("/K/wall");
     findBinding("Enter")?.run(store, view, "Enter");
     expect(store.notices.value.at(-1)?.text).toBe("no suggestion to confirm. Choose a class with /");
     await store.decide([2, 3], "confirm");
     expect(store.notices.value.at(-1)?.text).toMatch(/^1 of 2 objects: no suggestion/);
-    expect([post.mock.calls.length, store.groupId.value, store.saving.value]).toEqual([0, "/K/wall", "saved"]);
+    expect([post.mock.calls.length, store.groupId.value, store.server.saving.value]).toEqual([0, "/K/wall", "saved"]);
   });
 
   it("leaves unticked members out", async () => {
@@ -136,9 +140,9 @@ describe("store", () => {
       can_redo: false,
       states: [makeState(0, { state: "confirmed" })],
     };
-    store.receive(change);
-    store.receive({ ...change, states: [makeState(0)] });
-    expect([store.states.value[0]?.state, store.version.value]).toEqual(["confirmed", 4]);
+    store.server.receive(change);
+    store.server.receive({ ...change, states: [makeState(0)] });
+    expect([store.states.value[0]?.state, store.server.version.value]).toEqual(["confirmed", 4]);
   });
 
   it("filters the queue with the objects", async () => {
@@ -202,12 +206,12 @@ describe("store", () => {
   it("lets both pages of a reviewer undo, not those of others", () => {
     const store = makeStore(vi.fn());
     const change = { page: "other", message: "", states: [], can_redo: false };
-    store.receive({ ...change, version: 1, reviewer: "Bob", can_undo: true });
-    expect(store.canUndo.value).toBe(false);
-    store.receive({ ...change, version: 2, reviewer: "Ann", can_undo: true });
-    expect(store.canUndo.value).toBe(true);
-    store.receive({ ...change, version: 3, reviewer: "Ann", can_undo: false, can_redo: true });
-    expect([store.canUndo.value, store.canRedo.value]).toEqual([false, true]);
+    store.server.receive({ ...change, version: 1, reviewer: "Bob", can_undo: true });
+    expect(store.server.canUndo.value).toBe(false);
+    store.server.receive({ ...change, version: 2, reviewer: "Ann", can_undo: true });
+    expect(store.server.canUndo.value).toBe(true);
+    store.server.receive({ ...change, version: 3, reviewer: "Ann", can_undo: false, can_redo: true });
+    expect([store.server.canUndo.value, store.server.canRedo.value]).toEqual([false, true]);
   });
 });
 
@@ -234,7 +238,11 @@ describe("a server that does not answer", () => {
     store.toggleMember(1);
     server.isGone = true;
     await store.decide(store.targets.value, "confirm");
-    expect([store.groupId.value, store.ticked.value, store.saving.value]).toEqual(["/K/Table/Cup_1", [2], "offline"]);
+    expect([store.groupId.value, store.ticked.value, store.server.saving.value]).toEqual([
+      "/K/Table/Cup_1",
+      [2],
+      "offline",
+    ]);
     expect(store.groups.value).toEqual(QUEUE.groups);
     expect(texts(store)).toEqual(["Not saved: Cup_2 (no answer)"]);
     // The next key may have been meant for the next group.
@@ -251,15 +259,15 @@ describe("a server that does not answer", () => {
     await Promise.all([store.decide([2, 1], "confirm"), store.decide([3], "no-class")]);
     expect(store.groups.value).toEqual(QUEUE.groups);
     server.isGone = false;
-    store.setConnected(true);
-    await vi.waitFor(() => expect(store.saving.value).toBe("failed"));
+    store.server.setConnected(true);
+    await vi.waitFor(() => expect(store.server.saving.value).toBe("failed"));
     expect(texts(store).at(-1)).toBe("Not saved while the server did not answer: Cup_2 and 1 more; wall");
-    expect(store.connections.value).toBe(1);
+    expect(store.server.connections.value).toBe(1);
     // The first key after the way back is held back.
     await store.decide([0], "confirm");
-    expect(store.saving.value).toBe("failed");
+    expect(store.server.saving.value).toBe("failed");
     await store.decide([0], "confirm");
-    expect(store.saving.value).toBe("saved");
+    expect(store.server.saving.value).toBe("saved");
   });
 
   it("has saved a decision whose answer alone was lost", async () => {
@@ -271,17 +279,17 @@ describe("a server that does not answer", () => {
       state.object === 0 ? makeState(0, { state: "confirmed" }) : state,
     );
     Object.assign(server, { isGone: false, states: { ...makeStates(), version: 1, states } });
-    store.setConnected(true);
-    await vi.waitFor(() => expect(store.saving.value).toBe("saved"));
+    store.server.setConnected(true);
+    await vi.waitFor(() => expect(store.server.saving.value).toBe("saved"));
     expect([store.states.value[0]?.state, texts(store).length]).toEqual(["confirmed", 1]);
   });
 
   it("is not taken for one that has grounded again", async () => {
     const { server, store } = stoppable();
     server.isGone = true;
-    store.setConnected(false);
+    store.server.setConnected(false);
     await store.groundAgain();
-    expect([store.saving.value, texts(store)]).toEqual(["offline", ["no answer"]]);
+    expect([store.server.saving.value, texts(store)]).toEqual(["offline", ["no answer"]]);
   });
 });
 
@@ -347,9 +355,9 @@ describe("fast and concurrent reviewers", () => {
     await vi.waitFor(() => expect(sent).toHaveLength(1));
     gates[0]?.pass(1);
     await vi.waitFor(() => expect(sent).toHaveLength(2));
-    expect(store.saving.value).toBe("saving");
+    expect(store.server.saving.value).toBe("saving");
     gates[1]?.pass(2);
-    await vi.waitFor(() => expect(store.saving.value).toBe("saved"));
+    await vi.waitFor(() => expect(store.server.saving.value).toBe("saved"));
     expect(sent.map(({ objects }) => objects)).toEqual([[2, 1], [3]]);
   });
 
@@ -366,7 +374,7 @@ describe("fast and concurrent reviewers", () => {
     await vi.waitFor(() => expect(gates).toHaveLength(2));
     gates[1]?.pass(1);
     await second;
-    expect([store.states.value[3]?.state, store.saving.value]).toEqual(["confirmed", "failed"]);
+    expect([store.states.value[3]?.state, store.server.saving.value]).toEqual(["confirmed", "failed"]);
   });
 
   it("takes in an older change of others after its own reply", async () => {
@@ -376,8 +384,8 @@ describe("fast and concurrent reviewers", () => {
     await vi.waitFor(() => expect(gates).toHaveLength(1));
     gates[0]?.pass(6);
     await done;
-    store.receive(change(0, 5, { state: "no-class" }));
-    store.receive(change(1, 5.5, { state: "unsure" }));
+    store.server.receive(change(0, 5, { state: "no-class" }));
+    store.server.receive(change(1, 5.5, { state: "unsure" }));
     expect(store.states.value.slice(0, 2).map(({ state }) => state)).toEqual(["no-class", "confirmed"]);
   });
 
@@ -386,7 +394,7 @@ describe("fast and concurrent reviewers", () => {
     const store = makeStore(post);
     const done = store.decide([1], "confirm");
     await vi.waitFor(() => expect(gates).toHaveLength(1));
-    store.receive(change(1, 1, { state: "confirmed" }));
+    store.server.receive(change(1, 1, { state: "confirmed" }));
     gates[0]?.fail(500);
     await done;
     expect(store.states.value[1]?.state).toBe("confirmed");
@@ -400,7 +408,7 @@ describe("fast and concurrent reviewers", () => {
     await store.loadQueue();
     store.goTo("/K/Table/Cup_1");
     queue = { ...QUEUE, groups: QUEUE.groups.slice(1) };
-    store.receive(change(1, 1, { state: "confirmed" }));
+    store.server.receive(change(1, 1, { state: "confirmed" }));
     await vi.waitFor(() => expect(store.groupId.value).toBe("/K/wall"));
     await store.decide(store.targets.value, "confirm");
     expect(sent).toEqual([]);
@@ -520,7 +528,10 @@ describe("keys", () => {
       return reply([], {}) as T;
     });
     const change = { version: 1, reviewer: "", page: "p", message: "", can_undo: false, can_redo: false };
-    store.receive({ ...change, states: [makeState(1, { class: -1, suggested: 1 }), makeState(2, { class: 3 })] });
+    store.server.receive({
+      ...change,
+      states: [makeState(1, { class: -1, suggested: 1 }), makeState(2, { class: 3 })],
+    });
     const press = (...objects: number[]) => {
       store.select(objects);
       findBinding("U")?.run(store, view, "U");

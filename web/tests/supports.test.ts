@@ -24,7 +24,7 @@ describe("what objects stand on", () => {
   it("is fetched only while the colours show it", () => {
     const { store, asked } = setUp();
     followSupports(store);
-    store.version.value = 1;
+    store.server.version.value = 1;
     expect(asked).toEqual([]);
     store.colorMode.value = "support";
     expect(asked).toEqual(["relations?kind=on&version=1", "relations?kind=inside&version=1"]);
@@ -34,9 +34,9 @@ describe("what objects stand on", () => {
     const { store, asked, answers } = setUp();
     const { supports } = followSupports(store);
     store.colorMode.value = "support";
-    store.version.value = 1;
-    store.version.value = 2;
-    store.version.value = 3;
+    store.server.version.value = 1;
+    store.server.version.value = 2;
+    store.server.version.value = 3;
     expect(asked).toHaveLength(2);
     for (const answer of answers.splice(0)) answer();
     await vi.waitFor(() => expect(supports.value.get(1)).toBe(0));

@@ -33,7 +33,8 @@ export function App({ store, firstPicture }: { store: Store; firstPicture: First
     [],
   );
   const thumbnails = useMemo(
-    () => new ThumbnailCache(store.client, (object) => missingPicture(store.model.data, object), store.connections),
+    () =>
+      new ThumbnailCache(store.client, (object) => missingPicture(store.model.data, object), store.server.connections),
     [store],
   );
   useEffect(() => {

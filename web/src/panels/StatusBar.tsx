@@ -2,7 +2,8 @@
 
 import { useState } from "preact/hooks";
 import { durationText, groupCount } from "../state/review";
-import type { Saving, Store } from "../state/store";
+import type { Saving } from "../state/serverState";
+import type { Store } from "../state/store";
 
 const SAVING: Record<Saving, string> = {
   saved: "Saved",
@@ -16,9 +17,9 @@ export function StatusBar({ store }: { store: Store }) {
   const seconds = store.queue.value?.seconds_left ?? null;
   const decided = store.decided.value;
   const share = model.count === 0 ? 1 : decided / model.count;
-  const { folder, problem } = store.outputs.value;
+  const { folder, problem } = store.server.outputs.value;
   const groups = store.openGroups.value.length;
-  const saving = store.saving.value;
+  const saving = store.server.saving.value;
   return (
     <footer class="status-bar">
       <span class={`saving is-${saving}`} role="status">

@@ -60,10 +60,15 @@ export function TopBar({ store, view }: { store: Store; view: ViewCommands }) {
         </button>
       </fieldset>
       <fieldset class="group" aria-label="Undo">
-        <button type="button" title="Undo (Ctrl+Z)" disabled={!store.canUndo.value} onClick={() => store.undo()}>
+        <button type="button" title="Undo (Ctrl+Z)" disabled={!store.server.canUndo.value} onClick={() => store.undo()}>
           Undo
         </button>
-        <button type="button" title="Redo (Ctrl+Shift+Z)" disabled={!store.canRedo.value} onClick={() => store.redo()}>
+        <button
+          type="button"
+          title="Redo (Ctrl+Shift+Z)"
+          disabled={!store.server.canRedo.value}
+          onClick={() => store.redo()}
+        >
           Redo
         </button>
       </fieldset>

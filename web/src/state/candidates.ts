@@ -22,9 +22,9 @@ export function pageOf(store: Store): Signal<ObjectPage | null> {
   effect(() => {
     const object = focusOf(store);
     // A decision changes the history on the page, the graph its statements and relations.
-    void store.version.value;
-    void store.written.value;
-    void store.connections.value;
+    void store.server.version.value;
+    void store.server.written.value;
+    void store.server.connections.value;
     if (object < 0) {
       page.value = null;
       return;

@@ -109,7 +109,7 @@ export function comparisonOf(store: Store): ComparisonState {
   let timer: ReturnType<typeof setTimeout> | undefined;
   let isFirst = true;
   effect(() => {
-    void store.version.value;
+    void store.server.version.value;
     void store.states.value;
     clearTimeout(timer);
     timer = setTimeout(() => void state.load(), isFirst ? 0 : RELOAD_MS);

@@ -1,23 +1,19 @@
 /** The state of the page, as signals, and the actions that change it. */
 
 import { batch, computed, type ReadonlySignal, type Signal, signal } from "@preact/signals";
-import { ApiFailure, type Client } from "../api/client";
+import type { Client } from "../api/client";
 import type {
-  ChangeEvent,
   ClassIndex,
   DecisionAction,
-  DecisionReply,
   DecisionRequest,
   ObjectIndex,
   ObjectState,
-  Outputs,
   Queue,
   QueueGroup,
   QueueOrder,
   RegroundReply,
   SceneData,
   States,
-  SuggestionsEvent,
 } from "../api/types";
 import { isAuditing, isAuditOf } from "./audit";
 import type { ColorMode } from "./colors";
@@ -27,9 +23,8 @@ import { buildModel, type SceneModel } from "./model";
 import { findAgain, groupAfter, restrictGroups, withoutObjects } from "./queue";
 import { isOpen, predictStates, withoutSuggestion } from "./review";
 import { keepReviewer, type NameStorage, storedReviewer, storeReviewer } from "./reviewer";
-import { StateTable } from "./stateTable";
+import { ServerState } from "./serverState";
 
-export type Saving = "saved" | "saving" | "failed" | "offline";
 export type Drawer = "review" | "ask" | "sparql" | "diagnostics" | "run" | "compare";
 
 /** What a decision says apart from class and objects. */
@@ -41,40 +36,14 @@ interface Notice {
   kind: "info" | "error";
 }
 
-/** A request whose answer was lost: it may be on disk or not. */
-interface LostRequest {
-  what: string;
-  /** Version before it. */
-  seen: number;
-  /** The states that it leads to, as far as the page can tell. */
-  expected: readonly ObjectState[];
-}
-
 const MAX_FRAMED = 200;
 /** A key pressed so soon after the queue moved by itself was meant for the group before. */
 const MOVED_MS = 800;
 
 export class Store {
   readonly model: SceneModel;
+  readonly server: ServerState;
   readonly states: ReadonlySignal<readonly ObjectState[]>;
-  /** Version of the last change that this page has seen, its own or of others. */
-  readonly version = signal(0);
-  readonly canUndo = signal(false);
-  readonly canRedo = signal(false);
-  readonly outputs = signal<Outputs>({ folder: "", problem: "" });
-  /** Counts how often the files were written: the graph has changed. */
-  readonly written = signal(0);
-  readonly isOffline = signal(false);
-  /** Counts how often all was loaded again after a lost connection: what failed meanwhile is worth another try. */
-  readonly connections = signal(0);
-  private readonly unanswered = signal(0);
-  /** Whether a decision was not saved since the last one was sent. */
-  private readonly hasFailed = signal(false);
-  readonly saving = computed<Saving>(() => {
-    if (this.isOffline.value) return "offline";
-    if (this.unanswered.value > 0) return "saving";
-    return this.hasFailed.value ? "failed" : "saved";
-  });
   readonly reviewer: Signal<string>;
   readonly notices = signal<readonly Notice[]>([]);
 
@@ -126,7 +95,7 @@ export class Store {
   });
   /** The groups without what is decided and not answered yet; they come back if the server refuses. */
   readonly openGroups = computed<readonly QueueGroup[]>(() => {
-    const waiting = this.table.waiting.value;
+    const waiting = this.server.table.waiting.value;
     const groups = this.queue.value?.groups ?? [];
     return waiting.size === 0 ? groups : restrictGroups(groups, (object) => !waiting.has(object));
   });
@@ -163,15 +132,12 @@ export class Store {
   /** Objects that the picture shows next; null for all. */
   readonly lookAt = signal<readonly ObjectIndex[] | null>(null);
 
-  private readonly page = randomId();
-  private readonly table: StateTable;
+  /** Name of this page, by which it knows its own changes among those that the server announces. */
+  readonly page = randomId();
   private nextNotice = 1;
   private queueRequests = 0;
   /** When the queue last moved by itself, as `performance.now()`, and why. */
   private moved = { at: Number.NEGATIVE_INFINITY, why: "" };
-  /** Decisions, undo and redo reach the server in the order of the keys. */
-  private lastSent: Promise<unknown> = Promise.resolve();
-  private lost: LostRequest[] = [];
 
   constructor(
     readonly client: Client,
@@ -180,12 +146,8 @@ export class Store {
     private readonly storage: NameStorage,
   ) {
     this.model = buildModel(data);
-    this.table = new StateTable(states.states, states.version);
-    this.states = this.table.shown;
-    this.version.value = states.version;
-    this.canUndo.value = states.can_undo;
-    this.canRedo.value = states.can_redo;
-    this.outputs.value = states.outputs;
+    this.server = new ServerState(this, states);
+    this.states = this.server.table.shown;
     this.reviewer = signal(storedReviewer(storage) ?? data.reviewer);
     keepReviewer(this.reviewer.value, storage);
     this.colorMode = signal(data.has_colors ? "material" : "class");
@@ -196,7 +158,7 @@ export class Store {
     if (trimmed === "" || trimmed === this.reviewer.value) return;
     this.reviewer.value = trimmed;
     storeReviewer(trimmed, this.storage);
-    void this.reload();
+    void this.server.reload();
   }
 
   notify(text: string, kind: Notice["kind"] = "info"): void {
@@ -274,45 +236,6 @@ export class Store {
     });
   }
 
-  /** Hears from the stream of changes whether it is connected; after a loss, all is loaded again. */
-  setConnected(isConnected: boolean): void {
-    if (!isConnected) this.isOffline.value = true;
-    else if (this.isOffline.value) void this.reload();
-  }
-
-  /** Loads all states again, for another reviewer's undo or after a lost connection. */
-  async reload(): Promise<void> {
-    try {
-      const query = encodeURIComponent(this.reviewer.value);
-      const states = await this.client.get<States>(`states?reviewer=${query}`);
-      // A change that arrived in the meantime is newer.
-      if (states.version < this.version.value) return this.reload();
-      batch(() => {
-        this.table.reset(states.states, states.version);
-        this.version.value = states.version;
-        this.take(states);
-        if (this.isOffline.value) this.connections.value++;
-        this.isOffline.value = false;
-        this.settle(states);
-      });
-      await this.loadQueue();
-    } catch (error) {
-      this.reportLoading(error);
-    }
-  }
-
-  /** Finds which requests without an answer are on disk, and says which are not. */
-  private settle({ states, version }: States): void {
-    if (this.lost.length === 0) return;
-    const isKnown = ({ object, state, class: index }: ObjectState) =>
-      states[object]?.state === state && states[object]?.class === index;
-    const unsaved = this.lost.filter(({ seen, expected }) => version <= seen || !expected.every(isKnown));
-    this.lost = [];
-    this.hasFailed.value = unsaved.length > 0;
-    if (unsaved.length === 0) return;
-    this.notify(`Not saved while the server did not answer: ${unsaved.map(({ what }) => what).join("; ")}`, "error");
-  }
-
   goTo(id: string): void {
     batch(() => {
       this.groupId.value = id;
@@ -359,7 +282,7 @@ export class Store {
       action,
       reviewer: this.reviewer.value,
       page: this.page,
-      seen: this.version.value,
+      seen: this.server.version.value,
       ...(chosen === undefined ? {} : { class: chosen }),
       ...details,
       ...(isAuditOf(this, objects, action, details) ? { audit: true } : {}),
@@ -367,7 +290,7 @@ export class Store {
     const expected = predictStates(this.states.value, objects, action, chosen);
     const decided = new Set(action === "clear" ? [] : objects);
     const { forget, goBack } = batch(() => this.anticipate(decided, expected));
-    const reply = await this.send("decisions", body, nameObjects(this.model, objects), expected);
+    const reply = await this.server.send("decisions", body, nameObjects(this.model, objects), expected);
     batch(() => {
       if (reply !== null && this.queue.value !== null) this.queue.value = withoutObjects(this.queue.value, decided);
       forget();
@@ -396,7 +319,7 @@ export class Store {
     const [current, excluded] = [this.group.value, this.excluded.value];
     const isInGroup = current?.objects.some((object) => decided.has(object)) === true;
     const next = isInGroup ? groupAfter(this.groups.value, current, decided) : null;
-    const forget = this.table.expect(expected);
+    const forget = this.server.table.expect(expected);
     if (isInGroup) this.goTo(next?.id ?? "");
     const goBack = () => {
       const again = isInGroup ? findAgain(this.groups.value, current) : null;
@@ -415,20 +338,19 @@ export class Store {
       this.notify(reground);
       return;
     }
-    this.unanswered.value++;
-    try {
-      const body = { reviewer: this.reviewer.value, page: this.page };
-      const reply = await this.client.post<RegroundReply>("reground", body);
-      batch(() => {
-        this.table.reset(reply.states, reply.version);
-        this.changes.value = reply.changes;
-      });
-      await this.loadQueue();
-    } catch (error) {
-      this.fail(error, messageOf(error));
-    } finally {
-      this.unanswered.value--;
-    }
+    await this.server.waitFor(async () => {
+      try {
+        const body = { reviewer: this.reviewer.value, page: this.page };
+        const reply = await this.client.post<RegroundReply>("reground", body);
+        batch(() => {
+          this.server.table.reset(reply.states, reply.version);
+          this.changes.value = reply.changes;
+        });
+        await this.loadQueue();
+      } catch (error) {
+        this.server.fail(error, messageOf(error));
+      }
+    });
   }
 
   async undo(): Promise<void> {
@@ -440,7 +362,7 @@ export class Store {
   }
 
   private async revert(path: "undo" | "redo", text: string): Promise<void> {
-    const reply = await this.send(path, { reviewer: this.reviewer.value, page: this.page }, path, []);
+    const reply = await this.server.send(path, { reviewer: this.reviewer.value, page: this.page }, path, []);
     if (reply === null) return;
     const objects = reply.states.map((state) => state.object);
     this.notify(`${text}: ${objects.length} ${objects.length === 1 ? "object" : "objects"}`);
@@ -451,92 +373,14 @@ export class Store {
     else this.select(objects);
   }
 
-  /** Sends what goes to the journal; returns null, after a message, if it is not known to be saved. */
-  private async send(
-    path: string,
-    body: unknown,
-    what: string,
-    expected: readonly ObjectState[],
-  ): Promise<DecisionReply | null> {
-    const seen = this.version.value;
-    this.hasFailed.value = false;
-    this.unanswered.value++;
-    const sent = this.lastSent.then(() => this.client.post<DecisionReply>(path, body));
-    this.lastSent = sent.catch(() => undefined);
-    try {
-      const reply = await sent;
-      batch(() => {
-        this.table.apply(reply.states, reply.version);
-        this.take(reply);
-      });
-      if (this.isOffline.value) void this.reload();
-      return reply;
-    } catch (error) {
-      this.hasFailed.value = true;
-      if (hasNoAnswer(error)) this.lost.push({ what, seen, expected });
-      this.fail(error, `Not saved: ${what} (${messageOf(error)})`);
-      return null;
-    } finally {
-      this.unanswered.value--;
-    }
-  }
-
-  /** Says that a request has failed; what has no answer may have been done all the same, which only the server knows. */
-  private fail(error: unknown, text: string): void {
-    this.notify(text, "error");
-    if (!hasNoAnswer(error)) return;
-    this.isOffline.value = true;
-    void this.reload();
-  }
-
-  private take(reply: Pick<States, "can_undo" | "can_redo" | "outputs">): void {
-    this.canUndo.value = reply.can_undo;
-    this.canRedo.value = reply.can_redo;
-    this.outputs.value = reply.outputs;
-  }
-
-  /** Takes in a change that the server announces: of another page, or of this one, whose reply may be lost. */
-  receive(change: ChangeEvent): void {
-    if (change.version <= this.version.value) return;
-    batch(() => {
-      this.table.apply(change.states, change.version);
-      this.version.value = change.version;
-      if (change.reviewer !== this.reviewer.value) return;
-      this.canUndo.value = change.can_undo;
-      this.canRedo.value = change.can_redo;
-    });
-    if (change.page === this.page) return;
-    if (change.reviewer !== "") this.notify(`${change.reviewer}: ${change.message}`);
-    void this.loadQueue(true);
-  }
-
-  /** Hears that the files have been written, the graph among them. */
-  receiveOutputs(outputs: Outputs): void {
-    batch(() => {
-      this.outputs.value = outputs;
-      this.written.value++;
-    });
-  }
-
-  /** Loads the suggestions that another page has asked for. */
-  receiveSuggestions({ reviewer, page }: SuggestionsEvent): void {
-    if (page === this.page) return;
-    this.notify(`${reviewer} has grounded the open objects again`);
-    void this.reload();
-  }
-
   /** Reports what could not be loaded; while the page is offline, the status line says so, and all is loaded again. */
   reportLoading(error: unknown): void {
-    if (!this.isOffline.value) this.report(error);
+    if (!this.server.isOffline.value) this.report(error);
   }
 
   report(error: unknown): void {
     this.notify(messageOf(error), "error");
   }
-}
-
-function hasNoAnswer(error: unknown): boolean {
-  return error instanceof ApiFailure && error.status === 0;
 }
 
 /** Returns a random name; `crypto.randomUUID` is missing where the page comes over plain HTTP from another machine. */

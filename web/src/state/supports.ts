@@ -32,7 +32,7 @@ export function followSupports(store: Store): { supports: ReadonlySignal<Support
   };
   const stop = effect(() => {
     // Decisions change what may hold and bear something.
-    const version = store.version.value;
+    const version = store.server.version.value;
     if (store.colorMode.value !== "support") return;
     wanted = version;
     void fetchWanted();
