@@ -36,7 +36,7 @@ UNDERSTOOD: Mapping[str, tuple[str, dict[str, str]]] = {
     "what is there in the fridge": ("rel-what", {"relation": "in", "thing": "the fridge"}),
     "anything in the sink?": ("rel-is", {"class": "anything", "relation": "in", "thing": "the sink"}),
     "Where\u2019s the kettle": ("where", {"thing": "the kettle"}),
-    "in which room are the chairs?": ("where", {"thing": "the chairs"}),
+    "in which room are the chairs?": ("in-room", {"thing": "the chairs"}),
     "how many cups are there?": ("how-many", {"class": "cups"}),
     "How many cups do we have, please?": ("how-many", {"class": "cups"}),
     "how many windows does the house have?": ("how-many", {"class": "windows"}),

@@ -43,7 +43,7 @@ class LabelReader:
                 return self._read(above.prim)
             above = above.parent
         gprims = [record for record in records if record.is_gprim and not record.is_hidden]
-        if not all(gprim.is_labelled for gprim in gprims):
+        if not gprims or not all(gprim.is_labelled for gprim in gprims):
             return ()
         first, *others = (self._read(gprim.prim) for gprim in gprims)
         stated = {(label.taxonomy, label.value) for label in first}
