@@ -276,6 +276,12 @@ class BoxReader:
         world = np.array(self._local_to_world(record).Transform(Gf.Vec3d(point)))
         return to_metres(world.tolist(), self._frame) if _is_near(world).all() else None
 
+    def read_point_below(self, root: PrimRecord, record: PrimRecord, point: Any) -> Vector | None:
+        """Return a point of a prim's own frame in that of a prim above it, in stage units; None if it is not finite."""
+        matrix, _ = self._relative(record, root)
+        x, y, z = (np.array(point, dtype=float) @ matrix[:3, :3] + matrix[3, :3]).tolist()
+        return (x, y, z) if math.isfinite(x + y + z) else None
+
     def _local_to_world(self, record: PrimRecord) -> Any:
         if record.type_name or not record.authored.moves:
             return self._xforms.GetLocalToWorldTransform(record.prim)

@@ -1,22 +1,25 @@
-"""Evidence on objects: asset names, geometry file, part names, mass, display colour."""
+"""Evidence on objects: asset names, geometry file, part names, mass, display colour, and all other fields."""
 
 import math
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from functools import lru_cache
 from pathlib import Path, PurePosixPath
 from typing import Any, NamedTuple
 
 from pxr import Gf, Sdf, Usd, UsdGeom, Vt
 
-from usd2kg.scene.bounds import BoxReader
-from usd2kg.scene.metadata import vector_of
-from usd2kg.scene.model import StageFrame, Vector
+from usd2kg.scene.instancers import count_copies
+from usd2kg.scene.label_reader import LabelReader
+from usd2kg.scene.metadata import MaterialReader, source_id, text_attributes, variant_selections, vector_of
+from usd2kg.scene.model import NO_LABELS, StageFrame, Vector
 from usd2kg.scene.outline import PrimRecord
 from usd2kg.scene.stage import read_value
 
 __all__ = [
+    "NO_EVIDENCE",
     "AssetArc",
     "Mass",
+    "PointReader",
     "asset_arcs",
     "asset_names",
     "display_color",
@@ -24,7 +27,11 @@ __all__ = [
     "own_records",
     "part_names",
     "read_mass",
+    "stated_fields",
 ]
+
+NO_EVIDENCE: dict[str, Any] = {"mass_kg": None, "asset": (), "materials": (), "display_color": None}
+"""Fields of `SceneObject` without defaults, for a prim that OpenUSD cannot read."""
 
 _CACHE_SIZE = 10_000
 """Asset paths that each cache keeps; many objects reference the same few files."""
@@ -129,19 +136,30 @@ class Mass(NamedTuple):
     kg: float | None
     """Mass of the object's prim, or the sum over its parts; None if not authored."""
     center: Vector | None
-    """Centre of mass in the world, metres, z-up; None unless authored on every prim with a mass."""
+    """Centre of mass, in the frame that it was asked for; None unless authored on every prim with a mass."""
 
 
-def read_mass(records: list[PrimRecord], boxes: BoxReader, frame: StageFrame) -> Mass:
+PointReader = Callable[[PrimRecord, Any], Vector | None]
+"""Returns a point of a prim's own frame in another frame; None if it is not finite."""
+
+
+def read_mass(records: list[PrimRecord], read_point: PointReader, frame: StageFrame) -> Mass:
     """Return mass and centre of mass of the object's prim or, if it has none, of its parts together.
 
     UsdPhysics: a mass of 0 or a centre that is not finite means "not authored".
+
+    Args:
+        records: the object's prim and the prims below it without nested objects.
+        read_point: gives the frame of the centre, such as `BoxReader.read_point` for the world.
+        frame: units of the stage.
     """
     own = _mass(records[0])
     masses = [(records[0], own)] if own else [(record, mass) for record in records[1:] if (mass := _mass(record))]
     # The product may overflow or underflow.
     total = sum(mass for _, mass in masses) * frame.kilograms_per_unit
-    centers = [(center, mass) for record, mass in masses or [(records[0], 1.0)] if (center := _center(record, boxes))]
+    centers = [
+        (center, mass) for record, mass in masses or [(records[0], 1.0)] if (center := _center(record, read_point))
+    ]
     is_known = len(centers) == max(len(masses), 1)
     return Mass(total if 0 < total < math.inf else None, _weighted_mean(centers) if is_known else None)
 
@@ -153,12 +171,12 @@ def _mass(record: PrimRecord) -> float | None:
     return float(f"{mass:.7g}") if mass and 0 < mass < math.inf else None
 
 
-def _center(record: PrimRecord, boxes: BoxReader) -> Vector | None:
+def _center(record: PrimRecord, read_point: PointReader) -> Vector | None:
     if not record.has_mass:
         return None
     time = Usd.TimeCode.Default()
     center = read_value(record.prim, "physics:centerOfMass", time, Gf.Vec3f, Gf.Vec3d, Gf.Vec3h)
-    return boxes.read_point(record, center) if center is not None else None
+    return read_point(record, center) if center is not None else None
 
 
 def _weighted_mean(points: list[tuple[Vector, float]]) -> Vector | None:
@@ -176,3 +194,31 @@ def display_color(records: list[PrimRecord], time: Usd.TimeCode) -> Vector | Non
             if color:
                 return color
     return None
+
+
+def stated_fields(
+    records: list[PrimRecord], materials: MaterialReader, labels: LabelReader | None, time: Usd.TimeCode
+) -> dict[str, Any]:
+    """Return the fields of `SceneObject` that hold wherever the prim is, except its mass.
+
+    Args:
+        records: the object's prim and the prims below it without nested objects.
+        materials: reads the bound materials.
+        labels: reads the labels; None if no prim has one.
+        time: time code.
+    """
+    record, prim = records[0], records[0].prim
+    arcs = asset_arcs(prim) if record.may_have_asset else []
+    bound = materials.read(records)
+    return {
+        "asset": asset_names(record.metadata.get("assetInfo", {}), arcs),
+        "geometry_file": geometry_file(records, arcs),
+        "materials": tuple(dict.fromkeys(material.name for material in bound)),
+        "material_details": bound,
+        "display_color": display_color(records, time),
+        "instances": count_copies(records, time),
+        "labels": NO_LABELS if labels is None else labels.read(records),
+        "variants": variant_selections(prim),
+        "source_id": source_id(prim) if "customData" in record.metadata else "",
+        "texts": text_attributes(prim, time) if record.may_have_texts else (),
+    }

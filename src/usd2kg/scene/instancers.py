@@ -1,22 +1,40 @@
 """Copies of point instancers: counted in one object, or one object per copy."""
 
-from collections.abc import Sequence
+from collections.abc import Callable, Mapping, Sequence
 from graphlib import CycleError, TopologicalSorter
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
-from pxr import Usd, UsdGeom, Vt
+from pxr import Gf, Usd, UsdGeom, Vt
 
-from usd2kg.scene.bounds import BoxReader, pose_of
-from usd2kg.scene.evidence import asset_arcs, asset_names
-from usd2kg.scene.model import Box, Diagnostic, Instances, SceneObject, StageFrame
+from usd2kg.scene.bounds import BoxReader, pose_of, to_metres
+from usd2kg.scene.model import Box, Diagnostic, Instances, SceneObject, StageFrame, Vector
 from usd2kg.scene.outline import PrimRecord
 from usd2kg.scene.stage import read_targets, read_value
 
-__all__ = ["COPY", "count_copies", "is_endless", "read_copies"]
+__all__ = ["COPY", "Prototype", "count_copies", "is_endless", "read_copies"]
 
 COPY = "copy of a point instancer"
 """`SceneObject.selected_by` of a copy."""
+
+
+class Prototype(NamedTuple):
+    """What a prototype states, which holds for each of its copies."""
+
+    name: str
+    """The name of its prim."""
+    fields: Mapping[str, Any]
+    """Fields of `SceneObject`."""
+    center_of_mass: Vector | None = None
+    """In the prototype's own frame, stage units."""
+
+
+_NOTHING: Mapping[str, Any] = {
+    **dict.fromkeys(("type_name", "display_name", "documentation"), ""),
+    **dict.fromkeys(("asset", "materials", "parts"), ()),
+    **dict.fromkeys(("mass_kg", "display_color", "instance_of")),
+}
+"""Fields of the copies of a missing prototype."""
 
 
 def count_copies(records: list[PrimRecord], time: Usd.TimeCode) -> Instances | None:
@@ -83,16 +101,24 @@ def read_copies(
     record: PrimRecord,
     parent_path: str | None,
     frame: StageFrame,
-    time: Usd.TimeCode,
     boxes: BoxReader,
+    read_prototype: Callable[[Any], Prototype],
     notes: list[Diagnostic],
 ) -> list[SceneObject]:
     """Return an object for each visible copy; the path is the instancer's with the copy's id in brackets.
 
     If the authored ids are not unique or do not match the number of copies, copies are numbered by position and a
     diagnostic is added to `notes`.
+
+    Args:
+        record: the point instancer.
+        parent_path: the nearest object above the copies.
+        frame: units and up axis of the stage.
+        boxes: reads the bounds of the prototypes, at its time.
+        read_prototype: reads what the prim of a prototype states.
+        notes: receives the diagnostics.
     """
-    instancer = UsdGeom.PointInstancer(record.prim)
+    instancer, time = UsdGeom.PointInstancer(record.prim), boxes.time
     indices = _indices(record.prim, time)
     ids = _read_ids(record, len(indices), time, notes)
     drawn = _drawn(record.prim, time)
@@ -103,15 +129,46 @@ def read_copies(
         # The arrays do not match; OpenUSD has reported it.
         return []
     to_world = UsdGeom.Xformable(record.prim).ComputeLocalToWorldTransform(time)
-    prototypes = [record.prim.GetStage().GetPrimAtPath(path) for path in _prototypes(record.prim)]
-    extents = [boxes.read_local_corners(prim) if prim else np.empty((0, 3)) for prim in prototypes]
+    prims = [record.prim.GetStage().GetPrimAtPath(path) for path in _prototypes(record.prim)]
+    corners = [boxes.read_local_corners(prim) if prim else np.empty((0, 3)) for prim in prims]
+    prototypes = [read_prototype(prim) if prim else Prototype(record.name, _NOTHING) for prim in prims]
     copies = []
     for position, index in enumerate(indices):
-        if drawn[position] and 0 <= index < len(prototypes):
+        if drawn[position] and 0 <= index < len(prims):
             matrix = matrices[position] * to_world
-            box = boxes.box_of_corners(extents[index], matrix)
-            copies.append(_copy(record, parent_path, prototypes[index], ids[position], pose_of(matrix, frame), box))
+            place = _Place(parent_path, matrix, boxes.box_of_corners(corners[index], matrix), frame)
+            copies.append(_copy(f"{record.path}[{ids[position]}]", ids[position], prototypes[index], place))
     return copies
+
+
+class _Place(NamedTuple):
+    """Where a copy is."""
+
+    parent_path: str | None
+    matrix: Any
+    """From the frame of the prototype to the stage."""
+    box: Box | None
+    frame: StageFrame
+
+
+def _copy(path: str, number: int, prototype: Prototype, place: _Place) -> SceneObject:
+    position, orientation = pose_of(place.matrix, place.frame)
+    center = prototype.center_of_mass
+    moved = None if center is None else np.array(place.matrix.Transform(Gf.Vec3d(center)))
+    return SceneObject(
+        prim_path=path,
+        name=f"{prototype.name}_{number}",
+        kind="",
+        selected_by=COPY,
+        parent_path=place.parent_path,
+        box=place.box,
+        own_box=place.box,
+        part_boxes=(),
+        position=position,
+        orientation=orientation,
+        center_of_mass=None if moved is None or not np.isfinite(moved).all() else to_metres(moved, place.frame),
+        **prototype.fields,
+    )
 
 
 def _read_ids(record: PrimRecord, count: int, time: Usd.TimeCode, notes: list[Diagnostic]) -> Sequence[int]:
@@ -123,30 +180,3 @@ def _read_ids(record: PrimRecord, count: int, time: Usd.TimeCode, notes: list[Di
     message = f"its ids are not {count} different numbers, one for each copy; the copies are numbered by position"
     notes.append(Diagnostic("instancer", message, record.path))
     return range(count)
-
-
-def _copy(
-    record: PrimRecord, parent_path: str | None, prototype: Any, number: int, pose: Any, box: Box | None
-) -> SceneObject:
-    name = prototype.GetName() if prototype else record.name
-    return SceneObject(
-        prim_path=f"{record.path}[{number}]",
-        name=f"{name}_{number}",
-        type_name=str(prototype.GetTypeName()) if prototype else "",
-        kind="",
-        selected_by=COPY,
-        parent_path=parent_path,
-        box=box,
-        own_box=box,
-        part_boxes=(),
-        position=pose[0],
-        orientation=pose[1],
-        mass_kg=None,
-        display_name=prototype.GetDisplayName() if prototype else "",
-        documentation=prototype.GetDocumentation().strip() if prototype else "",
-        asset=asset_names(prototype.GetAssetInfo(), asset_arcs(prototype)) if prototype else (),
-        materials=(),
-        parts=(),
-        display_color=None,
-        instance_of=str(prototype.GetPath()) if prototype else None,
-    )

@@ -27,12 +27,14 @@ class LabelReader:
     def read(self, records: list[PrimRecord]) -> ObjectLabels:
         """Return the labels of an object, given its prim and the prims below it without nested objects."""
         own = self._read(records[0].prim) if records[0].is_labelled else ()
-        inherited = _distinct([*own, *self._inherited(records[0].parent)])[len(own) :]
         below = [label for prim in _labelled_parts(records) for label in self._read(prim)]
-        if not (own or inherited or below):
-            return NO_LABELS
-        of_whole = () if own else self._of_whole(records)
-        return ObjectLabels(own, inherited, _distinct(below)[: LIMITS.max_part_labels], of_whole)
+        labels = self.inherit(ObjectLabels(own, (), _distinct(below)[: LIMITS.max_part_labels]), records[0].parent)
+        return labels if own or labels is NO_LABELS else labels._replace(of_whole=self._of_whole(records))
+
+    def inherit(self, labels: ObjectLabels, parent: PrimRecord | None) -> ObjectLabels:
+        """Return labels with those that an object inherits from the prim above it and the ancestors of that prim."""
+        inherited = _distinct([*labels.own, *self._inherited(parent)])[len(labels.own) :]
+        return labels._replace(inherited=inherited) if labels.own or inherited or labels.of_parts else NO_LABELS
 
     def _of_whole(self, records: list[PrimRecord]) -> tuple[Label, ...]:
         """Return the labels on the nearest wrapper of an object, or those that all its geometry shares."""

@@ -3,6 +3,7 @@
 import math
 from collections.abc import Iterable, Iterator
 from dataclasses import replace
+from functools import partial
 from pathlib import Path
 from typing import Any, NamedTuple, TypeVar
 
@@ -12,25 +13,18 @@ from pxr import Usd
 from usd2kg.errors import SceneError
 from usd2kg.garbage import paused_collection, release_freed_memory
 from usd2kg.scene.bounds import BoxReader, union
-from usd2kg.scene.evidence import (
-    asset_arcs,
-    asset_names,
-    display_color,
-    geometry_file,
-    own_records,
-    part_names,
-    read_mass,
-)
-from usd2kg.scene.instancers import count_copies, read_copies
+from usd2kg.scene.evidence import NO_EVIDENCE, own_records, part_names, read_mass, stated_fields
+from usd2kg.scene.instancers import read_copies
 from usd2kg.scene.joints import read_joints
 from usd2kg.scene.label_lint import lint_labels
 from usd2kg.scene.label_reader import LabelReader, class_reader
 from usd2kg.scene.levels import LevelReader, holds_others
-from usd2kg.scene.metadata import MaterialReader, clean_text, source_id, text_attributes, variant_selections
-from usd2kg.scene.model import NO_LABELS, Box, Diagnostic, Scene, SceneObject
+from usd2kg.scene.metadata import MaterialReader, clean_text
+from usd2kg.scene.model import Box, Diagnostic, Scene, SceneObject
 from usd2kg.scene.object_selection import ASKED_FOR, Selection, explain, select_objects
 from usd2kg.scene.options import ReadOptions
 from usd2kg.scene.outline import Outline, PrimRecord
+from usd2kg.scene.prototypes import PrototypeReader
 from usd2kg.scene.sanity_checks import check_sanity
 from usd2kg.scene.settings import LIMITS
 from usd2kg.scene.stage import (
@@ -57,8 +51,6 @@ _BATCH = 1000
 """Objects whose materials are computed together; affects speed only."""
 _MANY_PRIMS = 100_000
 """Prims from which the memory of a closed stage is worth returning."""
-_NO_EVIDENCE: dict[str, Any] = {"mass_kg": None, "asset": (), "materials": (), "display_color": None}
-"""Fields without defaults, for an object that OpenUSD cannot read."""
 
 
 @traced("read", lambda scene: {"objects": len(scene.objects), "prims": scene.prim_count})
@@ -254,6 +246,7 @@ class _ObjectReader:
         self.has_labels = bool(outline.labelled_prims)
         self.materials = MaterialReader(time, has_purpose_bindings=outline.has_purpose_bindings)
         self.notes: list[Diagnostic] = []
+        self.prototypes = PrototypeReader(self.frame, boxes, self.labels, self.notes)
         self.surfaces: dict[str, Surface] = {}
         self.shells: dict[str, tuple[Box, ...]] = {}
         self._tuples: dict[tuple[Any, ...], tuple[Any, ...]] = {}
@@ -330,7 +323,7 @@ class _ObjectReader:
             evidence = self._evidence(entry.records, boxes)
         except UNREADABLE as error:
             self._note("unreadable", record, f"its evidence cannot be read ({_why(error)}); only its name and box are")
-            evidence = _NO_EVIDENCE
+            evidence = NO_EVIDENCE
         return SceneObject(
             prim_path=record.path,
             name=record.name,
@@ -354,24 +347,14 @@ class _ObjectReader:
 
     def _evidence(self, records: list[PrimRecord], boxes: _ObjectBoxes) -> dict[str, Any]:
         """Return the fields of an object that are read from OpenUSD."""
-        record, prim = records[0], records[0].prim
-        arcs = asset_arcs(prim) if record.may_have_asset else []
-        materials = self.materials.read(records)
-        mass = read_mass(records, self.boxes, self.frame)
+        mass = read_mass(records, self.boxes.read_point, self.frame)
+        stated = stated_fields(records, self.materials, self.labels if self.has_labels else None, self.time)
         return {
-            "oriented_size": self.boxes.read_oriented_size(record) if boxes.below else None,
+            "oriented_size": self.boxes.read_oriented_size(records[0]) if boxes.below else None,
             "mass_kg": mass.kg,
             "center_of_mass": mass.center,
-            "asset": self._once(asset_names(record.metadata.get("assetInfo", {}), arcs)),
-            "geometry_file": geometry_file(records, arcs),
-            "materials": self._once(tuple(dict.fromkeys(material.name for material in materials))),
-            "material_details": materials,
-            "display_color": display_color(records, self.time),
-            "instances": count_copies(records, self.time),
-            "labels": self.labels.read(records) if self.has_labels else NO_LABELS,
-            "variants": variant_selections(prim),
-            "source_id": source_id(prim) if "customData" in record.metadata else "",
-            "texts": self._once(text_attributes(prim, self.time)) if record.may_have_texts else (),
+            **stated,
+            **{name: self._once(stated[name]) for name in ("asset", "materials", "texts")},
         }
 
     def _once(self, texts: tuple[_Text, ...]) -> tuple[_Text, ...]:
@@ -379,8 +362,9 @@ class _ObjectReader:
 
     def read_copies(self, instancer: PrimRecord, parent_path: str | None) -> list[SceneObject]:
         """Return the copies of a point instancer; none if OpenUSD cannot read it."""
+        read_prototype = partial(self.prototypes.read, instancer=instancer)
         try:
-            return read_copies(instancer, parent_path, self.frame, self.time, self.boxes, self.notes)
+            return read_copies(instancer, parent_path, self.frame, self.boxes, read_prototype, self.notes)
         except UNREADABLE as error:
             self._note("geometry", instancer, f"its copies cannot be read ({_why(error)}); they are left out")
             return []

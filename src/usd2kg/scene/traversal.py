@@ -6,7 +6,7 @@ and pruned. A prototype is traversed for its first instance only.
 """
 
 import sys
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from typing import Any, NamedTuple
 
 from pxr import Kind, Sdf, Tf, Usd, UsdGeom
@@ -18,7 +18,7 @@ from usd2kg.scene.outline import Authored, JointLink, Outline, PrimRecord
 from usd2kg.scene.solids import ROUND_SOLIDS
 from usd2kg.scene.stage import UNREADABLE, OpenedStage, read_targets, read_value, value_of
 
-__all__ = ["ENDLESS", "UNREADABLE_PRIM", "outline_stage", "paths_above_endless"]
+__all__ = ["ENDLESS", "UNREADABLE_PRIM", "outline_prototype", "outline_stage", "paths_above_endless"]
 
 ENDLESS = "point instancer among its own prototypes"
 UNREADABLE_PRIM = "unreadable"
@@ -70,15 +70,27 @@ class _TypeTraits(NamedTuple):
 
 def outline_stage(opened: OpenedStage, time: Usd.TimeCode) -> Outline:
     """Return the outline of a stage at `time`, including instance proxies."""
-    return _Outliner(opened, time).run()
+    return _Outliner(opened.stage, time, opened.unresolved).run(opened.stage.GetPseudoRoot().GetAllChildren())
+
+
+def outline_prototype(prototype: Any, time: Usd.TimeCode) -> Outline:
+    """Return the outline of a prototype of a point instancer, which is its first record, and the prims below it.
+
+    The prims above it are not in the outline: the copies are drawn below the instancer. An inactive, abstract or
+    invisible prototype has no record.
+    """
+    outliner = _Outliner(prototype.GetStage(), time, frozenset())
+    # A material may be bound above it.
+    outliner.outline.root.is_bound = True
+    return outliner.run([prototype])
 
 
 class _Outliner:
-    def __init__(self, opened: OpenedStage, time: Usd.TimeCode) -> None:
-        self.stage = opened.stage
+    def __init__(self, stage: Any, time: Usd.TimeCode, unresolved: frozenset[str]) -> None:
+        self.stage = stage
         self.time = time
-        self.unresolved = opened.unresolved
-        self.outline = Outline(PrimRecord(opened.stage, "/", "", "", "", None))
+        self.unresolved = unresolved
+        self.outline = Outline(PrimRecord(stage, "/", "", "", "", None))
         self.traits: dict[str, _TypeTraits] = {}
         self.kinds: dict[str, str] = {"": ""}
         self.authored: dict[tuple[Any, ...], Authored] = {}
@@ -88,23 +100,31 @@ class _Outliner:
         """Path of a prim → the point instancers at and below it; a cache."""
         self.labelled: set[Any] = set()
         """Paths of labelled prims in prototypes."""
-        self.references = EqualReferences(opened.stage, self.outline.labelled_prims, _FAULTS | {_PHYSICS})
+        self.references = EqualReferences(stage, self.outline.labelled_prims, _FAULTS | {_PHYSICS})
         self.with_joints: dict[Any, bool] = {}
         """Path of the prototype → whether it contains joints, which are read for each instance."""
 
-    def run(self) -> Outline:
-        entered = {"/": self.outline.root}
-        prims = iter(Usd.PrimRange(self.stage.GetPseudoRoot(), Usd.TraverseInstanceProxies(Usd.PrimAllPrimsPredicate)))
-        next(prims)
+    def run(self, tops: Iterable[Any]) -> Outline:
+        """Return the outline of some prims and the prims below them."""
+        for top in tops:
+            self._enter_below(top)
+        self.outline.records = list(self.outline.root.walk())[1:]
+        _count_geometry(self.outline.records)
+        return self.outline
+
+    def _enter_below(self, top: Any) -> None:
+        """Add the records of a prim and the prims below it to the root of the outline."""
+        entered = {top.GetPath().pathString.rpartition("/")[0]: self.outline.root}
+        prims = iter(Usd.PrimRange(top, Usd.TraverseInstanceProxies(Usd.PrimAllPrimsPredicate)))
         for prim in prims:
             path = prim.GetPath().pathString
             above, _, name = path.rpartition("/")
             # Many prims have the same names, which the scene keeps.
             name = sys.intern(name)
             try:
-                record = self._enter(prim, path, name, entered[above or "/"])
+                record = self._enter(prim, path, name, entered[above])
             except UNREADABLE:
-                self._leave_out((name, UNREADABLE_PRIM), entered[above or "/"])
+                self._leave_out((name, UNREADABLE_PRIM), entered[above])
                 record = None
             if record is None:
                 prims.PruneChildren()
@@ -112,9 +132,6 @@ class _Outliner:
             entered[path] = record
             if record.is_instancer or self._copy_known_contents(record):
                 prims.PruneChildren()
-        self.outline.records = list(self.outline.root.walk())[1:]
-        _count_geometry(self.outline.records)
-        return self.outline
 
     def _enter(self, prim: Any, path: str, name: str, parent: PrimRecord) -> PrimRecord | None:
         """Add the record of a prim to the tree and return it; None if the prim is pruned."""
