@@ -79,7 +79,7 @@ def test_an_identifier_of_the_source_is_not_that_of_each_copy(read):
 
 @pytest.mark.parametrize("meta", ["active = false", 'kind = "component"'])
 def test_a_prototype_without_content_has_copies_with_its_names(read, meta):
-    hollow = xform("Bucket", "token visibility = \"invisible\"", cube("a"), meta=[meta, 'displayName = "Pail"'])
+    hollow = xform("Bucket", 'token visibility = "invisible"', cube("a"), meta=[meta, 'displayName = "Pail"'])
     found = copies(read(xform("World", instancer("Buckets", hollow), cube("b")), options=COPIES))
     assert [(copy.name, copy.display_name, copy.mass_kg) for copy in found] == [
         ("Bucket_0", "Pail", None),
@@ -93,3 +93,47 @@ def test_a_stage_with_expanded_instancers_that_changed_is_read_anew(write_stage)
         text = instancer("Buckets", bucket()).replace("mass = 12", f"mass = {mass}")
         path = write_stage(METRES + xform("World", text, cube("b")))
         assert {copy.mass_kg for copy in copies(read_scene(path, options=COPIES))} == {mass}
+
+
+# --- copies that are one object -----------------------------------------------------------------------
+
+
+def notes(scene):
+    return [(note.prim_path, note.message) for note in scene.diagnostics if note.code == "instancer"]
+
+
+def test_copies_that_are_one_object_are_reported_with_the_option(read):
+    buckets = instancer("Buckets", bucket(), indices=(0, 0, 0))
+    expected = "its point instancers draw 3 copies of Bucket that are one object"
+    remedy = "; make every copy an object with --expand-instancers"
+    assert notes(read(xform("World", buckets, cube("b")))) == [("/World/Buckets", expected + remedy)]
+    pails = instancer("Pails", prototypes=("/World/Buckets/Bucket",))
+    several = expected + ", and 2 such objects have 5 copies in all" + remedy
+    assert notes(read(xform("World", buckets, pails, cube("b")))) == [("/World/Buckets", several)]
+    assert notes(read(xform("World", buckets, pails, cube("b")), options=COPIES)) == []
+
+
+def test_a_single_copy_is_not_reported(read):
+    assert notes(read(xform("World", instancer("Buckets", bucket(), indices=(0,)), cube("b")))) == []
+
+
+def own_labels(read, *prototypes, lines=(), indices=(0, 1)):
+    paths = [f"/World/Buckets/{name}" for name in ("Bucket", "Pail")]
+    drawn = instancer("Buckets", *prototypes, prototypes=paths, indices=indices, lines=lines)
+    labels = read(xform("World", drawn, cube("b"))).by_path["/World/Buckets"].labels
+    return [(label.prim_path, label.value) for label in labels.own]
+
+
+def test_labels_that_all_drawn_prototypes_have_are_those_of_their_instancer(read):
+    pail, plain = bucket(name="Pail"), xform("Pail", cube("a"))
+    found = [("/World/Buckets/Bucket", "bucket")]
+    assert own_labels(read, bucket(), pail) == found
+    assert own_labels(read, bucket(), plain) == []
+    # The second prototype has no copy.
+    assert own_labels(read, bucket(), plain, indices=(0, 0)) == found
+    assert own_labels(read, indices=()) == []
+
+
+def test_labels_of_the_instancer_replace_those_of_its_prototypes(read):
+    line = 'token[] semantics:labels:class = ["pile"]'
+    assert own_labels(read, bucket(), bucket(name="Pail"), lines=[line]) == [("/World/Buckets", "pile")]

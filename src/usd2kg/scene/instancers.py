@@ -12,7 +12,7 @@ from usd2kg.scene.model import Box, Diagnostic, Instances, SceneObject, StageFra
 from usd2kg.scene.outline import PrimRecord
 from usd2kg.scene.stage import read_targets, read_value
 
-__all__ = ["COPY", "Prototype", "count_copies", "is_endless", "read_copies"]
+__all__ = ["COPY", "Prototype", "count_copies", "drawn_prototypes", "is_endless", "read_copies"]
 
 COPY = "copy of a point instancer"
 """`SceneObject.selected_by` of a copy."""
@@ -44,6 +44,14 @@ def count_copies(records: list[PrimRecord], time: Usd.TimeCode) -> Instances | N
         return None
     names = [target.name for prim in instancers for target in _prototypes(prim)]
     return Instances(sum(sum(_drawn(prim, time)) for prim in instancers), tuple(dict.fromkeys(names)))
+
+
+def drawn_prototypes(instancer: Any, time: Usd.TimeCode) -> list[Any]:
+    """Return the prims of the prototypes that have a visible copy, in the order of the instancer."""
+    shown = zip(_indices(instancer, time), _drawn(instancer, time), strict=True)
+    used = {index for index, is_drawn in shown if is_drawn}
+    paths = [path for index, path in enumerate(_prototypes(instancer)) if index in used]
+    return [prim for path in paths if (prim := instancer.GetStage().GetPrimAtPath(path))]
 
 
 def is_endless(prim: Any, known: dict[Any, list[Any]]) -> bool:

@@ -52,6 +52,12 @@ class LabelReader:
         is_shared = all(stated == {(label.taxonomy, label.value) for label in labels} for labels in others)
         return first if is_shared else ()
 
+    def read_shared(self, prims: list[Any]) -> tuple[Label, ...]:
+        """Return the labels on the first of some prims that all of them have."""
+        first, *others = map(self._read, prims) if prims else [()]
+        common = set(map(_meaning, first)).intersection(*(map(_meaning, labels) for labels in others))
+        return tuple(label for label in first if _meaning(label) in common)
+
     def _read(self, prim: Any) -> tuple[Label, ...]:
         known = self._known.get(str(prim.GetPath())) if self._known else None
         return read_labels(prim, self._time) if known is None else known
@@ -79,8 +85,12 @@ def _labelled_parts(records: list[PrimRecord]) -> Iterator[Any]:
 def _distinct(labels: Iterable[Label]) -> tuple[Label, ...]:
     first: dict[tuple[str, str, str], Label] = {}
     for label in labels:
-        first.setdefault((label.encoding, label.taxonomy, label.value), label)
+        first.setdefault(_meaning(label), label)
     return tuple(first.values())
+
+
+def _meaning(label: Label) -> tuple[str, str, str]:
+    return label.encoding, label.taxonomy, label.value
 
 
 def read_labels(prim: Any, time: Any) -> tuple[Label, ...]:

@@ -131,7 +131,7 @@ class ObjectLabels(NamedTuple):
     """The labels of one object by the prim that carries them, without duplicates."""
 
     own: tuple[Label, ...]
-    """On the object's prim."""
+    """On the object's prim; for a point instancer without any, those that all its drawn prototypes have."""
     inherited: tuple[Label, ...]
     """On its ancestors, nearest first, without those in `own`."""
     of_parts: tuple[Label, ...]

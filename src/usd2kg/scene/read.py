@@ -14,7 +14,7 @@ from usd2kg.errors import SceneError
 from usd2kg.garbage import paused_collection, release_freed_memory
 from usd2kg.scene.bounds import BoxReader, union
 from usd2kg.scene.evidence import NO_EVIDENCE, own_records, part_names, read_mass, stated_fields
-from usd2kg.scene.instancers import read_copies
+from usd2kg.scene.instancers import drawn_prototypes, read_copies
 from usd2kg.scene.joints import read_joints
 from usd2kg.scene.label_lint import lint_labels
 from usd2kg.scene.label_reader import LabelReader, class_reader
@@ -349,6 +349,9 @@ class _ObjectReader:
         """Return the fields of an object that are read from OpenUSD."""
         mass = read_mass(records, self.boxes.read_point, self.frame)
         stated = stated_fields(records, self.materials, self.labels if self.has_labels else None, self.time)
+        if records[0].is_instancer and not stated["labels"].own:
+            shared = self.labels.read_shared(drawn_prototypes(records[0].prim, self.time))
+            stated["labels"] = stated["labels"]._replace(own=shared)
         return {
             "oriented_size": self.boxes.read_oriented_size(records[0]) if boxes.below else None,
             "mass_kg": mass.kg,

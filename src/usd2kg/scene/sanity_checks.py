@@ -4,6 +4,7 @@ import math
 from statistics import median
 
 from usd2kg.scene.coincidence import find_surplus
+from usd2kg.scene.instancers import COPY
 from usd2kg.scene.model import Diagnostic, Scene, SceneObject
 from usd2kg.scene.settings import LIMITS, SANITY
 from usd2kg.scene.unnamed_pieces import is_unnamed
@@ -41,8 +42,21 @@ def _extent(obj: SceneObject) -> float:
 
 
 def check_sanity(scene: Scene) -> list[Diagnostic]:
-    """Return diagnostics for outliers, an implausible extent, many unnamed objects and many in one place."""
-    return [*_check_extent(scene), *_check_names(scene), *_check_places(scene)]
+    """Return diagnostics for outliers, an implausible extent, copies that are not objects, and odd names and places."""
+    return [*_check_extent(scene), *_check_copies(scene), *_check_names(scene), *_check_places(scene)]
+
+
+def _check_copies(scene: Scene) -> list[Diagnostic]:
+    """Return a diagnostic if copies of point instancers are not objects: nothing counts them or relates them."""
+    drawn = [(obj.prim_path, obj.instances) for obj in scene.objects if obj.instances and obj.instances.count > 1]
+    if not drawn or any(obj.selected_by == COPY for obj in scene.objects):
+        return []
+    path, first = drawn[0]
+    found = f"its point instancers draw {first.count} copies of {', '.join(first.prototypes)} that are one object"
+    if drawn[1:]:
+        total = sum(instances.count for _, instances in drawn)
+        found += f", and {len(drawn)} such objects have {total} copies in all"
+    return [Diagnostic("instancer", f"{found}; make every copy an object with --expand-instancers", path)]
 
 
 def _check_places(scene: Scene) -> list[Diagnostic]:
