@@ -66,11 +66,42 @@ def test_rotation_excludes_scale(read):
     assert notes == []
 
 
-def test_rotation_excludes_mirroring(read):
-    # diag(-1, 1, 1) is the point reflection of diag(1, -1, -1), half a turn about x.
-    thing, notes = pose(read, ("double3", "scale", (-1, 1, 1)))
-    assert thing.orientation == pytest.approx((1, 0, 0, 0))
+@pytest.mark.parametrize("factors", [(-1, 1, 1), (1, -1, 1), (-2, 3, 0.5)])
+def test_rotation_excludes_mirroring_of_a_horizontal_axis(read, factors):
+    thing, notes = pose(read, ("double3", "scale", factors))
+    assert thing.orientation == (0, 0, 0, 1)
     assert notes == []
+
+
+def test_the_axis_whose_mirroring_leaves_the_smaller_rotation_is_inverted(read):
+    # A turn by 60 degrees about z, or one by 120 to the other side with the other axis inverted: sin 30, cos 30.
+    thing, _ = pose(read, ("double", "rotateZ", 60), ("double3", "scale", (-1, 1, 1)))
+    assert thing.orientation == pytest.approx((0, 0, 0.5, math.sqrt(0.75)))
+    thing, _ = pose(read, ("double", "rotateZ", 60), ("double3", "scale", (1, -1, 1)))
+    assert thing.orientation == pytest.approx((0, 0, 0.5, math.sqrt(0.75)))
+    # At 90 degrees both are a quarter turn; the first axis is inverted.
+    for factors in ((-1, 1, 1), (1, -1, 1)):
+        thing, _ = pose(read, ("double", "rotateZ", 90), ("double3", "scale", factors))
+        assert thing.orientation == pytest.approx((0, 0, math.copysign(HALF, -factors[0]), HALF))
+
+
+@pytest.mark.parametrize(
+    ("factors", "expected"),
+    [((1, 1, -1), (0, 1, 0, 0)), ((-1, -1, -1), (1, 0, 0, 0))],
+)
+def test_what_is_mirrored_upside_down_is_turned_over(read, factors, expected):
+    # Its z axis points down. With x inverted, diag(1, 1, -1) is diag(-1, 1, -1), half a turn about y.
+    thing, _ = pose(read, ("double3", "scale", factors))
+    assert thing.orientation == pytest.approx(expected)
+
+
+def test_mirroring_in_a_y_up_stage_keeps_the_y_axis(read):
+    upright = pytest.approx((HALF, 0, 0, HALF))
+    assert pose(read, ("double3", "scale", (-1, 1, 1)), layer=Y_UP)[0].orientation == upright
+    assert pose(read, ("double3", "scale", (1, 1, -1)), layer=Y_UP)[0].orientation == upright
+    # Turned over about z in the stage, diag(-1, -1, 1), then by 90 degrees about x: (0, -1, 1, 0) / sqrt 2.
+    over, _ = pose(read, ("double3", "scale", (1, -1, 1)), layer=Y_UP)
+    assert over.orientation == pytest.approx((0, HALF, -HALF, 0))
 
 
 @pytest.mark.parametrize("factors", [(0, 0, 0), (1, 0, 1)])

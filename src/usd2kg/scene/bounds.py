@@ -3,6 +3,7 @@
 import math
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
+from operator import itemgetter
 from typing import Any
 
 import numpy as np
@@ -262,7 +263,7 @@ class BoxReader:
     def read_pose(self, record: PrimRecord) -> tuple[Vector | None, Quaternion | None]:
         """Return world position (metres) and rotation (x, y, z, w) of a prim's own frame, z-up.
 
-        The rotation excludes scale and mirroring. Either is None if it is not finite or not defined.
+        The rotation excludes scale and mirroring, see `pose_of`. Either is None if it is not finite or not defined.
         """
         matrix = self._local_to_world(record)
         if not record.may_be_turned:
@@ -355,14 +356,18 @@ def union(boxes: Iterable[Box]) -> Box | None:
 
 
 def pose_of(matrix: Any, frame: StageFrame) -> tuple[Vector | None, Quaternion | None]:
-    """Return position (metres) and rotation (x, y, z, w) of a stage's 4 × 4 matrix, z-up."""
+    """Return position (metres) and rotation (x, y, z, w) of a stage's 4 × 4 matrix, z-up.
+
+    The rotation is the orthogonal factor of the polar decomposition (Shoemake and Duff, Matrix Animation and Polar
+    Decomposition, 1992). That of a mirroring matrix is a reflection; see `_unmirrored`.
+    """
     rows = np.array(matrix)
     if not (np.isfinite(rows).all() and _is_near(rows[3]).all()):
         return None, None
     position = to_metres(rows[3, :3].tolist(), frame)
     if _is_singular(matrix):
         return position, None
-    rotation = matrix.RemoveScaleShear()
+    rotation = (_unmirrored(matrix, frame) if matrix.GetDeterminant3() < 0 else matrix).RemoveScaleShear()
     if not np.isfinite(np.asarray(rotation)).all():
         return position, None
     quaternion = rotation.ExtractRotationQuat()
@@ -370,6 +375,24 @@ def pose_of(matrix: Any, frame: StageFrame) -> tuple[Vector | None, Quaternion |
         half = math.sqrt(0.5)
         quaternion = Gf.Quatd(half, half, 0, 0) * quaternion
     return position, _canonical(quaternion)
+
+
+def _unmirrored(matrix: Any, frame: StageFrame) -> Any:
+    """Return a mirroring matrix without the mirroring of the prim's own axes.
+
+    A reflection is a rotation after mirroring one axis, whichever: the matrix does not tell which axis was mirrored.
+    The prim's up axis keeps its direction, so that only what is turned over has an up axis that points down. Of the two
+    others, that axis is inverted which leaves the smaller rotation: the larger trace, which is 1 + 2 cos of the angle.
+    So a scale of (-1, 1, 1) or (1, -1, 1) is no rotation. Gf's own factor would invert all three axes.
+    """
+    candidates = []
+    for axis in (0, 1) if frame.up_axis == "Z" else (0, 2):
+        candidate = Gf.Matrix4d(matrix)
+        candidate.SetRow3(axis, -matrix.GetRow3(axis))
+        # A rounding error must not decide between equal rotations.
+        trace = round(float(np.trace(np.array(candidate.RemoveScaleShear()))), 6)
+        candidates.append((trace, candidate))
+    return max(candidates, key=itemgetter(0))[1]
 
 
 def _is_singular(matrix: Any) -> bool:
