@@ -1,8 +1,9 @@
 """World boxes and poses of prims, converted to metres and z-up."""
 
 import math
-from collections.abc import Iterable, Sequence
+from collections.abc import Container, Iterable, Sequence
 from dataclasses import dataclass
+from itertools import product
 from operator import itemgetter
 from typing import Any
 
@@ -17,7 +18,7 @@ from usd2kg.scene.solids import ROUND_SOLIDS, solid_surface
 from usd2kg.scene.stage import UNREADABLE, read_value
 from usd2kg.shapes.extent import extent_of
 
-__all__ = ["BoxReader", "is_measurable", "pose_of", "to_metres", "union"]
+__all__ = ["BoxReader", "is_measurable", "points_of", "pose_of", "to_metres", "union"]
 
 _PURPOSES = (UsdGeom.Tokens.default_, UsdGeom.Tokens.render)
 _MAX_SINE = 1e-6
@@ -57,15 +58,23 @@ class BoxReader:
     the local box, which makes a round table rotated by 45° 1.4 times too wide. Shared geometry is read once.
     """
 
-    def __init__(self, frame: StageFrame, time: Usd.TimeCode, endless: frozenset[str] = frozenset()) -> None:
+    def __init__(
+        self,
+        frame: StageFrame,
+        time: Usd.TimeCode,
+        endless: frozenset[str] = frozenset(),
+        stale: Container[PrimRecord] = (),
+    ) -> None:
         """Create a reader.
 
         Args:
             frame: units and up axis of the stage.
             time: time code at which geometry and transforms are read.
             endless: paths of prims whose bounds OpenUSD is never asked for; see `paths_above_endless`.
+            stale: meshes that are measured by their points, since their extents are wrong; it may grow, see `forget`.
         """
         self._frame = frame
+        self._stale = stale
         self._endless = endless
         self.time = time
         self._geometry = UsdGeom.BBoxCache(time, _PURPOSES, useExtentsHint=False)
@@ -102,6 +111,8 @@ class BoxReader:
         if not record.has_points:
             return self._box(self._geometry, record)
         matrix = self.read_matrix(record)
+        if record in self._stale:
+            return self._box_of_points(record.prim, matrix)
         if not record.may_be_turned:
             box = self._box_of_extent(record, matrix)
         elif _is_aligned(matrix):
@@ -142,7 +153,7 @@ class BoxReader:
         return self._extents[id(record)]
 
     def _box_of_points(self, prim: Any, matrix: _Matrix) -> Box | None:
-        return self._box_around(_points_of(prim, self.time) @ matrix[:3, :3] + matrix[3, :3])
+        return self._box_around(points_of(prim, self.time) @ matrix[:3, :3] + matrix[3, :3])
 
     def _box_around(self, world: _Matrix) -> Box | None:
         is_near = _is_near(world)
@@ -175,11 +186,11 @@ class BoxReader:
         corners, extents, matrices = [], [], []
         for gprim in gprims:
             matrix, resets = self._relative(gprim, root)
-            found = self.read_local_corners(gprim.prim)
+            found = self._corners_of(gprim)
             if resets or not (len(found) or gprim.has_points):
                 return None
             is_tight = len(found) and (not gprim.has_points or _is_aligned(matrix))
-            local = found if is_tight else _points_of(gprim.prim, self.time)
+            local = found if is_tight else points_of(gprim.prim, self.time)
             corners.append(local @ matrix[:3, :3] + matrix[3, :3])
             extents.append(found @ matrix[:3, :3] + matrix[3, :3])
             matrices.append(matrix)
@@ -219,11 +230,22 @@ class BoxReader:
             above = next(record for record in _upwards(shared.gprims[0]) if record.twin is root.twin)
             for gprim, corners in zip(shared.gprims, shared.corners, strict=True):
                 matrix, _ = self._relative(gprim, above)
-                local = _points_of(gprim.prim, self.time) if gprim.has_points else np.empty((0, 3))
+                local = points_of(gprim.prim, self.time) if gprim.has_points else np.empty((0, 3))
                 near = local[_is_near(local).all(axis=1)] @ matrix[:3, :3] + matrix[3, :3]
                 is_enough = len(near) and len(near) >= min(len(local), _MIN_POINTS)
                 shared.points.append(near if is_enough else corners)
         return shared.points
+
+    def _corners_of(self, gprim: PrimRecord) -> _Matrix:
+        """Return the corners, (8, 3) or (0, 3), of the extent of a gprim in its own frame, or of its points."""
+        if gprim not in self._stale:
+            return self.read_local_corners(gprim.prim)
+        lower, upper = extent_of(points_of(gprim.prim, self.time))
+        return np.array(list(product(*zip(lower.tolist(), upper.tolist(), strict=True))))
+
+    def forget(self) -> None:
+        """Forget shared geometry that was read before an extent was known to be stale."""
+        self._shared.clear()
 
     def read_local_corners(self, prim: Any) -> _Matrix:
         """Return the corners, (8, 3) or (0, 3), of the bounds at and below a prim, without the prim's transform."""
@@ -304,7 +326,7 @@ def is_measurable(record: PrimRecord) -> bool:
     return (record.is_gprim or record.is_instancer) and not record.is_hidden
 
 
-def _points_of(prim: Any, time: Usd.TimeCode) -> _Matrix:
+def points_of(prim: Any, time: Usd.TimeCode) -> _Matrix:
     """Return the points (n, 3) of a mesh or of the surface of a solid, in the prim's frame; empty if mistyped."""
     if prim.GetTypeName() in ROUND_SOLIDS:
         surface = solid_surface(prim, time, SOLIDS.box_segments)

@@ -36,6 +36,7 @@ from usd2kg.scene.stage import (
     time_code,
     translated_errors,
 )
+from usd2kg.scene.stale_extents import StaleExtents
 from usd2kg.scene.surfaces import SurfaceReader, are_near_others, hold_middles, read_shell
 from usd2kg.scene.traversal import ENDLESS, UNREADABLE_PRIM, outline_stage, paths_above_endless
 from usd2kg.shapes.surface import Surface
@@ -86,10 +87,11 @@ def _read_stage(source: Path | str | Usd.Stage, paths: Iterable[str] | None, opt
         np.errstate(invalid="ignore", over="ignore"),
         outline_stage(opened, time) as outline,
     ):
-        boxes = BoxReader(opened.frame, time, paths_above_endless(outline))
+        extents = StaleExtents(time)
+        boxes = BoxReader(opened.frame, time, paths_above_endless(outline), extents)
         wanted = tuple(dict.fromkeys(paths or ()))
         selection = select_objects(outline, options.selection, boxes.read_below, class_reader(time), wanted)
-        reader = _ObjectReader(opened, outline, selection.chosen, boxes)
+        reader = _ObjectReader(opened, outline, selection.chosen, boxes, extents)
         found = _find_objects(outline, selection.chosen, options.expand_instancers)
         objects = _read_objects(reader, found)
         joints = read_joints(outline.joint_prims, opened.frame, time)
@@ -111,7 +113,14 @@ def _read_stage(source: Path | str | Usd.Stage, paths: Iterable[str] | None, opt
         files=opened.contents.files,
         surfaces=reader.surfaces,
     )
-    notes = (*_left_out_notes(outline), *reader.notes, *joints.diagnostics, *label_notes, *check_sanity(scene))
+    notes = (
+        *_left_out_notes(outline),
+        *extents.notes,
+        *reader.notes,
+        *joints.diagnostics,
+        *label_notes,
+        *check_sanity(scene),
+    )
     return replace(scene, diagnostics=tuple(map(_on_one_line, (*opened.diagnostics, *openusd_notes, *notes))))
 
 
@@ -167,9 +176,14 @@ def _no_object_message(source: str, outline: Outline, selection: Selection, open
 
 
 def _read_objects(reader: "_ObjectReader", found: list["_SelectedPrim"]) -> list[SceneObject]:
-    boxes = reader.measure([entry for entry in found if entry.is_read])
-    reader.read_surfaces([entry for entry in found if entry.is_read], boxes)
-    levels = reader.read_levels([entry for entry in found if entry.is_read], boxes)
+    measured = [entry for entry in found if entry.is_read]
+    boxes = reader.measure(measured)
+    reader.read_surfaces(measured, boxes)
+    known = 0
+    while len(reader.extents.notes) > known:
+        known = len(reader.extents.notes)
+        boxes = reader.measure_again(measured)
+    levels = reader.read_levels(measured, boxes)
     objects: list[SceneObject] = []
     for index, entry in enumerate(found):
         if index % _BATCH == 0:
@@ -237,7 +251,15 @@ def _find_objects(outline: Outline, chosen: dict[str, str], expand_instancers: b
 class _ObjectReader:
     """Reads objects one by one with shared caches."""
 
-    def __init__(self, opened: OpenedStage, outline: Outline, chosen: dict[str, str], boxes: BoxReader) -> None:
+    def __init__(
+        self,
+        opened: OpenedStage,
+        outline: Outline,
+        chosen: dict[str, str],
+        boxes: BoxReader,
+        extents: StaleExtents,
+    ) -> None:
+        self.extents = extents
         self.frame = opened.frame
         self.chosen = chosen
         self.time = time = boxes.time
@@ -281,7 +303,7 @@ class _ObjectReader:
 
     def read_surfaces(self, found: list[_SelectedPrim], boxes: dict[str, _ObjectBoxes]) -> None:
         """Read the surfaces of the objects that others are near, and the shells of large ones around others."""
-        surfaces = SurfaceReader(self.boxes, self.frame)
+        surfaces = SurfaceReader(self.boxes, self.frame, self.extents)
         own = [boxes[entry.records[0].path].own for entry in found]
         for entry, is_near, is_holder in zip(found, are_near_others(own), hold_middles(own), strict=True):
             if is_near:
@@ -295,6 +317,17 @@ class _ObjectReader:
                     self.surfaces[entry.records[0].path] = surface
                     if is_holder:
                         self.shells[entry.records[0].path] = read_shell(surface)
+            else:
+                self.extents.compare_isolated(entry.records)
+
+    def measure_again(self, found: list[_SelectedPrim]) -> dict[str, _ObjectBoxes]:
+        """Return the boxes and read the surfaces of the objects, now that stale extents are known."""
+        self.boxes.forget()
+        for results in (self.notes, self.surfaces, self.shells):
+            results.clear()
+        boxes = self.measure(found)
+        self.read_surfaces(found, boxes)
+        return boxes
 
     def read_levels(self, found: list[_SelectedPrim], boxes: dict[str, _ObjectBoxes]) -> dict[str, tuple[Box, ...]]:
         """Return path → support levels, for the objects that may have others on an inner level."""

@@ -5,6 +5,7 @@ from typing import NamedTuple
 from usd2kg.knowledge import read_settings
 
 __all__ = [
+    "EXTENTS",
     "JOINTS",
     "LABELS",
     "LEVELS",
@@ -18,6 +19,7 @@ __all__ = [
     "SURFACES",
     "TEXTS",
     "UNNAMED",
+    "ExtentSettings",
     "JointSettings",
     "LabelSettings",
     "LevelSettings",
@@ -103,6 +105,13 @@ class SetSettings(NamedTuple):
     min_room: float
 
 
+class ExtentSettings(NamedTuple):
+    """Comparison of authored extents with points."""
+
+    min_difference: float
+    max_isolated: int
+
+
 class UnnamedSettings(NamedTuple):
     """Pieces without meaningful names."""
 
@@ -153,6 +162,7 @@ MESHES = read_settings("scene", "meshes", MeshSettings)
 LEVELS = read_settings("scene", "levels", LevelSettings)
 SURFACES = read_settings("scene", "surfaces", SurfaceSettings)
 SETS = read_settings("scene", "sets", SetSettings)
+EXTENTS = read_settings("scene", "extents", ExtentSettings)
 UNNAMED = read_settings("scene", "unnamed", UnnamedSettings)
 ROBOTS = read_settings("scene", "robots", RobotSettings)
 JOINTS = read_settings("scene", "joints", JointSettings)

@@ -1,7 +1,6 @@
 """Surfaces of objects with near neighbours, whose relations depend on more than their boxes."""
 
 from collections.abc import Sequence
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -12,6 +11,7 @@ from usd2kg.scene.model import Box, StageFrame, Vector
 from usd2kg.scene.outline import PrimRecord
 from usd2kg.scene.settings import MAX_COORDINATE, SURFACES
 from usd2kg.scene.solids import solid_surface
+from usd2kg.scene.stale_extents import StaleExtents
 from usd2kg.scene.triangulation import Faces, read_faces, triangulate_faces
 from usd2kg.shapes.box_pairs import overlapping_pairs
 from usd2kg.shapes.shell import shell_boxes
@@ -79,8 +79,10 @@ def _vector(values: Array) -> Vector:
 class SurfaceReader:
     """Reads the surfaces of objects; prototypes are read once, and equal meshes are triangulated and stored once."""
 
-    def __init__(self, boxes: BoxReader, frame: StageFrame) -> None:
+    def __init__(self, boxes: BoxReader, frame: StageFrame, extents: StaleExtents) -> None:
+        """Read at the time of `boxes`; `extents` are compared with the points that are read."""
         self._boxes = boxes
+        self._extents = extents
         self._to_world = _UP_AXES[frame.up_axis] * frame.metres_per_unit
         self._shared: dict[int, _Triangles | None] = {}
         self._by_digest: dict[bytes, _Triangles | None] = {}
@@ -129,16 +131,20 @@ class SurfaceReader:
     def _triangles(self, record: PrimRecord) -> _Triangles | None:
         source = record.source
         if id(source) not in self._shared:
-            self._shared[id(source)] = self._read_triangles(source.prim)
+            self._shared[id(source)] = self._read_triangles(source)
         return self._shared[id(source)]
 
-    def _read_triangles(self, prim: Any) -> _Triangles | None:
-        time = self._boxes.time
+    def _read_triangles(self, record: PrimRecord) -> _Triangles | None:
+        prim, time = record.prim, self._boxes.time
         if not prim.IsA(UsdGeom.Mesh):
             surface = solid_surface(prim, time)
-            return None if surface is None else _compact(*surface)
+            if surface is None:
+                return None
+            self._extents.compare(record, surface[0])
+            return _compact(*surface)
         # References that are not instances have equal meshes, too.
         faces = read_faces(UsdGeom.Mesh(prim), time)
+        self._extents.compare(record, faces.points)
         digest = faces.digest()
         if digest not in self._by_digest:
             self._by_digest[digest] = _triangles_of(faces)
