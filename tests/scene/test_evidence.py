@@ -51,6 +51,29 @@ def test_missing_mass_is_none(read, mass):
     assert thing(read, f"float physics:mass = {mass}", heavy("a", 0.5), meta=[MASS]).mass_kg == 0.5
 
 
+def mass_notes(read, *things):
+    notes = read(xform("World", *things, cube("other"))).diagnostics
+    return [(note.prim_path, note.message) for note in notes if note.code == "mass"]
+
+
+@pytest.mark.parametrize("mass", ["-3", "nan", "inf"])
+def test_a_mass_that_is_no_mass_is_reported(read, mass):
+    message = f"its mass is {mass}, expected a positive number; it is left out; correct physics:mass"
+    assert mass_notes(read, heavy("a", mass), heavy("b", 0), heavy("c", 2)) == [("/World/a", message)]
+
+
+def test_a_density_without_a_mass_is_reported_once(read):
+    dense = "float physics:density = 7850"
+    both = heavy("d", 2, dense)
+    parts = component("c", heavy("body", 0, dense), heavy("lid", 0, dense))
+    message = (
+        "2 objects have a density (physics:density) and no mass; densities are not evaluated, so there is no mass in "
+        "the graph; author physics:mass"
+    )
+    assert mass_notes(read, heavy("a", 0), heavy("b", 0, dense), parts, both) == [("/World/b", message)]
+    assert mass_notes(read, parts)[0][1].startswith("1 object has a density (physics:density) and no mass; densities")
+
+
 def test_ignores_a_mass_without_its_schema(read):
     assert thing(read, "float physics:mass = 2", cube("a")).mass_kg is None
 

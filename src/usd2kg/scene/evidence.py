@@ -1,32 +1,28 @@
-"""Evidence on objects: asset names, geometry file, part names, mass, display colour, and all other fields."""
+"""Evidence on objects: asset names, geometry file, part names, display colour, and all other fields."""
 
-import math
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from functools import lru_cache
 from pathlib import Path, PurePosixPath
 from typing import Any, NamedTuple
 
-from pxr import Gf, Sdf, Usd, UsdGeom, Vt
+from pxr import Sdf, Usd, UsdGeom, Vt
 
 from usd2kg.scene.instancers import count_copies
 from usd2kg.scene.label_reader import LabelReader
 from usd2kg.scene.metadata import MaterialReader, source_id, text_attributes, variant_selections, vector_of
-from usd2kg.scene.model import NO_LABELS, StageFrame, Vector
+from usd2kg.scene.model import NO_LABELS, Vector
 from usd2kg.scene.outline import PrimRecord
 from usd2kg.scene.stage import read_value
 
 __all__ = [
     "NO_EVIDENCE",
     "AssetArc",
-    "Mass",
-    "PointReader",
     "asset_arcs",
     "asset_names",
     "display_color",
     "geometry_file",
     "own_records",
     "part_names",
-    "read_mass",
     "stated_fields",
 ]
 
@@ -128,61 +124,6 @@ def _relative_path(path: str, root: str) -> str | None:
 def part_names(records: list[PrimRecord]) -> tuple[str, ...]:
     """Return the distinct names of the prims below an object, in traversal order, without its own name."""
     return tuple(dict.fromkeys(record.name for record in records[1:] if record.name != records[0].name))
-
-
-class Mass(NamedTuple):
-    """The authored mass of an object."""
-
-    kg: float | None
-    """Mass of the object's prim, or the sum over its parts; None if not authored."""
-    center: Vector | None
-    """Centre of mass, in the frame that it was asked for; None unless authored on every prim with a mass."""
-
-
-PointReader = Callable[[PrimRecord, Any], Vector | None]
-"""Returns a point of a prim's own frame in another frame; None if it is not finite."""
-
-
-def read_mass(records: list[PrimRecord], read_point: PointReader, frame: StageFrame) -> Mass:
-    """Return mass and centre of mass of the object's prim or, if it has none, of its parts together.
-
-    UsdPhysics: a mass of 0 or a centre that is not finite means "not authored".
-
-    Args:
-        records: the object's prim and the prims below it without nested objects.
-        read_point: gives the frame of the centre, such as `BoxReader.read_point` for the world.
-        frame: units of the stage.
-    """
-    own = _mass(records[0])
-    masses = [(records[0], own)] if own else [(record, mass) for record in records[1:] if (mass := _mass(record))]
-    # The product may overflow or underflow.
-    total = sum(mass for _, mass in masses) * frame.kilograms_per_unit
-    centers = [
-        (center, mass) for record, mass in masses or [(records[0], 1.0)] if (center := _center(record, read_point))
-    ]
-    is_known = len(centers) == max(len(masses), 1)
-    return Mass(total if 0 < total < math.inf else None, _weighted_mean(centers) if is_known else None)
-
-
-def _mass(record: PrimRecord) -> float | None:
-    if not record.has_mass:
-        return None
-    mass = read_value(record.prim, "physics:mass", Usd.TimeCode.Default(), int, float)
-    return float(f"{mass:.7g}") if mass and 0 < mass < math.inf else None
-
-
-def _center(record: PrimRecord, read_point: PointReader) -> Vector | None:
-    if not record.has_mass:
-        return None
-    time = Usd.TimeCode.Default()
-    center = read_value(record.prim, "physics:centerOfMass", time, Gf.Vec3f, Gf.Vec3d, Gf.Vec3h)
-    return read_point(record, center) if center is not None else None
-
-
-def _weighted_mean(points: list[tuple[Vector, float]]) -> Vector | None:
-    total = sum(weight for _, weight in points)
-    x, y, z = (sum(point[axis] * weight for point, weight in points) / total for axis in range(3))
-    return (x, y, z) if math.isfinite(x + y + z) else None
 
 
 def display_color(records: list[PrimRecord], time: Usd.TimeCode) -> Vector | None:

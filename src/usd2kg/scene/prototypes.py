@@ -4,11 +4,12 @@ from functools import partial
 from typing import Any
 
 from usd2kg.scene.bounds import BoxReader
-from usd2kg.scene.evidence import NO_EVIDENCE, asset_arcs, asset_names, part_names, read_mass, stated_fields
+from usd2kg.scene.evidence import NO_EVIDENCE, asset_arcs, asset_names, part_names, stated_fields
 from usd2kg.scene.instancers import Prototype
 from usd2kg.scene.label_reader import LabelReader
+from usd2kg.scene.masses import MassReader
 from usd2kg.scene.metadata import MaterialReader
-from usd2kg.scene.model import NO_LABELS, Diagnostic, StageFrame
+from usd2kg.scene.model import NO_LABELS, Diagnostic
 from usd2kg.scene.outline import Outline, PrimRecord
 from usd2kg.scene.stage import UNREADABLE, error_text
 from usd2kg.scene.traversal import outline_prototype
@@ -19,9 +20,9 @@ __all__ = ["PrototypeReader"]
 class PrototypeReader:
     """Reads each prototype once, however many instancers draw it."""
 
-    def __init__(self, frame: StageFrame, boxes: BoxReader, labels: LabelReader, notes: list[Diagnostic]) -> None:
-        """Read in the frame of a stage, at the time of `boxes`; `notes` receives the problems."""
-        self._frame = frame
+    def __init__(self, masses: MassReader, boxes: BoxReader, labels: LabelReader, notes: list[Diagnostic]) -> None:
+        """Read at the time of `boxes`; `notes` receives the problems."""
+        self._masses = masses
         self._boxes = boxes
         self._labels = labels
         self._notes = notes
@@ -52,7 +53,7 @@ class PrototypeReader:
             # It is inactive, abstract or invisible.
             return Prototype(name, {**named, **nothing})
         try:
-            mass = read_mass(records, partial(self._boxes.read_point_below, records[0]), self._frame)
+            mass = self._masses.read(records, partial(self._boxes.read_point_below, records[0]))
             labels = self._labels if outline.labelled_prims else None
             stated = stated_fields(records, MaterialReader(self._boxes.time), labels, self._boxes.time)
         except UNREADABLE as error:

@@ -13,12 +13,13 @@ from pxr import Usd
 from usd2kg.errors import SceneError
 from usd2kg.garbage import paused_collection, release_freed_memory
 from usd2kg.scene.bounds import BoxReader, union
-from usd2kg.scene.evidence import NO_EVIDENCE, own_records, part_names, read_mass, stated_fields
+from usd2kg.scene.evidence import NO_EVIDENCE, own_records, part_names, stated_fields
 from usd2kg.scene.instancers import drawn_prototypes, read_copies
 from usd2kg.scene.joints import read_joints
 from usd2kg.scene.label_lint import lint_labels
 from usd2kg.scene.label_reader import LabelReader, class_reader
 from usd2kg.scene.levels import LevelReader, holds_others
+from usd2kg.scene.masses import MassReader
 from usd2kg.scene.metadata import MaterialReader, clean_text
 from usd2kg.scene.model import Box, Diagnostic, Scene, SceneObject
 from usd2kg.scene.object_selection import ASKED_FOR, Selection, explain, select_objects
@@ -117,6 +118,7 @@ def _read_stage(source: Path | str | Usd.Stage, paths: Iterable[str] | None, opt
         *_left_out_notes(outline),
         *extents.notes,
         *reader.notes,
+        *reader.masses.notes,
         *joints.diagnostics,
         *label_notes,
         *check_sanity(scene),
@@ -268,7 +270,8 @@ class _ObjectReader:
         self.has_labels = bool(outline.labelled_prims)
         self.materials = MaterialReader(time, has_purpose_bindings=outline.has_purpose_bindings)
         self.notes: list[Diagnostic] = []
-        self.prototypes = PrototypeReader(self.frame, boxes, self.labels, self.notes)
+        self.masses = MassReader(self.frame)
+        self.prototypes = PrototypeReader(self.masses, boxes, self.labels, self.notes)
         self.surfaces: dict[str, Surface] = {}
         self.shells: dict[str, tuple[Box, ...]] = {}
         self._tuples: dict[tuple[Any, ...], tuple[Any, ...]] = {}
@@ -380,7 +383,7 @@ class _ObjectReader:
 
     def _evidence(self, records: list[PrimRecord], boxes: _ObjectBoxes) -> dict[str, Any]:
         """Return the fields of an object that are read from OpenUSD."""
-        mass = read_mass(records, self.boxes.read_point, self.frame)
+        mass = self.masses.read(records, self.boxes.read_point)
         stated = stated_fields(records, self.materials, self.labels if self.has_labels else None, self.time)
         if records[0].is_instancer and not stated["labels"].own:
             shared = self.labels.read_shared(drawn_prototypes(records[0].prim, self.time))
