@@ -10,7 +10,7 @@ from pxr import Sdf, Usd, UsdGeom, UsdUtils, Vt
 
 from tests.scene.usda import METRES, component, cube, header, move, prim, xform
 from usd2kg.errors import SceneError
-from usd2kg.scene import Diagnostic, read_scene
+from usd2kg.scene import Diagnostic, ReadOptions, read_scene
 
 CUBE = xform("World", cube("box"))
 
@@ -230,14 +230,33 @@ def test_missing_units_fall_back_and_are_reported(read):
         1.0,
         False,
     )
-    assert scene.diagnostics == (
-        Diagnostic("units", "metersPerUnit is not authored; OpenUSD's fallback of 0.01 m is used", None, scene.source),
+    messages = (
+        "metersPerUnit is not authored; OpenUSD's fallback of 0.01 m is used; author it, or set --metres-per-unit",
+        "upAxis is not authored; OpenUSD's fallback Y is used; author it, or set --up-axis",
     )
+    assert scene.diagnostics == tuple(Diagnostic("units", message, None, scene.source) for message in messages)
+
+
+def test_what_only_a_sublayer_says_of_units_is_reported(write_stage):
+    write_stage(METRES + CUBE, "below.usda")
+    scene = read_scene(write_stage("(\n    subLayers = [@below.usda@]\n)\n"))
+    assert (scene.frame.metres_per_unit, scene.frame.up_axis) == (0.01, "Y")
+    assert [note.message for note in scene.diagnostics if note.code == "units"][:2] == [
+        "metersPerUnit is not authored (a sublayer says 1.0, which OpenUSD does not read); OpenUSD's fallback of 0.01 "
+        "m is used; author it, or set --metres-per-unit",
+        "upAxis is not authored (a sublayer says Z, which OpenUSD does not read); OpenUSD's fallback Y is used; author "
+        "it, or set --up-axis",
+    ]
+
+
+def test_an_option_replaces_a_missing_up_axis(write_stage):
+    path = write_stage("(\n    metersPerUnit = 1\n)\n" + CUBE)
+    assert read_scene(path, options=ReadOptions(up_axis="Z")).diagnostics == ()
 
 
 @pytest.mark.parametrize("value", [-1, 0, "inf", "nan"])
 def test_invalid_metres_per_unit_falls_back_and_is_reported(read, value):
-    text = f"(\n    metersPerUnit = {value}\n)\n"
+    text = f'(\n    metersPerUnit = {value}\n    upAxis = "Z"\n)\n'
     scene = read(CUBE, layer=text)
     assert scene.frame.metres_per_unit == 0.01
     assert not scene.frame.is_authored
@@ -268,7 +287,7 @@ def test_invalid_up_axis_is_reported_and_y_is_used(read):
 
 @pytest.mark.parametrize("value", [-2, 0, "inf"])
 def test_invalid_kilograms_per_unit_falls_back_and_is_reported(read, value):
-    scene = read(CUBE, layer=f"(\n    metersPerUnit = 1\n    kilogramsPerUnit = {value}\n)\n")
+    scene = read(CUBE, layer=f'(\n    metersPerUnit = 1\n    upAxis = "Z"\n    kilogramsPerUnit = {value}\n)\n')
     assert scene.frame.kilograms_per_unit == 1.0
     assert [note.code for note in scene.diagnostics] == ["units"]
     assert "kilogramsPerUnit" in scene.diagnostics[0].message

@@ -297,12 +297,12 @@ def _read_frame(stage: Any, options: ReadOptions) -> tuple[StageFrame, list[Diag
     if metres is not None and not is_authored:
         notes.append(_odd_unit("metersPerUnit", metres, _USD_FALLBACK_METRES, layer))
     if metres is None:
-        notes.append(
-            Diagnostic("units", "metersPerUnit is not authored; OpenUSD's fallback of 0.01 m is used", None, layer)
-        )
+        notes.append(_not_authored("metersPerUnit", "of 0.01 m is", "--metres-per-unit", stage))
     up_axis = options.up_axis or _metadata(stage, UsdGeom.Tokens.upAxis)
     if up_axis is not None and str(up_axis) not in {"Y", "Z"}:
         notes.append(Diagnostic("units", f"upAxis is {str(up_axis)!r}, expected Y or Z; Y is used", None, layer))
+    if up_axis is None:
+        notes.append(_not_authored("upAxis", "Y is", "--up-axis", stage))
     kilograms = _metadata(stage, "kilogramsPerUnit")
     has_kilograms = _is_unit(kilograms)
     if kilograms is not None and not has_kilograms:
@@ -314,6 +314,14 @@ def _read_frame(stage: Any, options: ReadOptions) -> tuple[StageFrame, list[Diag
         is_authored=is_authored,
     )
     return frame, notes
+
+
+def _not_authored(key: str, fallback: str, option: str, stage: Any) -> Diagnostic:
+    """Return a diagnostic for stage metadata that the root layer lacks; OpenUSD does not read that of sublayers."""
+    below = next((layer for layer in stage.GetLayerStack() if layer.pseudoRoot.HasInfo(key)), None)
+    said = "" if below is None else f" (a sublayer says {below.pseudoRoot.GetInfo(key)}, which OpenUSD does not read)"
+    message = f"{key} is not authored{said}; OpenUSD's fallback {fallback} used; author it, or set {option}"
+    return Diagnostic("units", message, None, stage.GetRootLayer().identifier)
 
 
 def _metadata(stage: Any, key: str) -> Any:
