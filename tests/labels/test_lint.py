@@ -5,7 +5,7 @@ import pytest
 from tests.conftest import shared_file
 from tests.labels.conftest import ENCODINGS, SOMA
 from tests.scene.usda import METRES, component, cube, prim, xform
-from usd2kg.grounding import view_objects
+from usd2kg.grounding import ground, view_objects
 from usd2kg.labels import LabelOptions, label_stage, lint_stage, read_prim_classes
 from usd2kg.ontology import load_tbox
 from usd2kg.scene import read_scene
@@ -165,6 +165,29 @@ def test_a_doubtful_prediction_is_no_evidence_when_it_is_read_again(write_stage,
     assert stated == [0.3, 0.9, None, None]
     views = [view.labels for _, view in view_objects(scene)]
     assert [bool(labels) for labels in views] == [False, True, True, True]
+
+
+def test_a_prediction_that_is_read_again_is_no_more_certain(write_stage, tmp_path, home_tbox):
+    source = write_stage(METRES + component("Bottle", cube("g", size=0.1)) + component("x_2", cube("g", at=(5, 0, 0))))
+    path, target = tmp_path / "run.csv", tmp_path / "labels.usda"
+    path.write_text("path,class,confidence\n/Bottle,soma:Bottle,0.81\n/x_2,soma:Cup,0.9\n")
+    label_stage(source, read_prim_classes(path, home_tbox), home_tbox, target)
+    bottle, cup = ground(read_scene(target), home_tbox).predictions
+    assert (bottle.class_iri, bottle.confidence) == (SOMA + "Bottle", 0.81)
+    # Only the label says so; it counts as that of a person would.
+    assert cup.class_iri == SOMA + "Cup"
+    assert 0.8 < cup.confidence <= 0.9
+    # The name alone is more certain.
+    assert ground(read_scene(source), home_tbox).predictions[0].confidence > 0.9
+    assert ground(read_scene(target), home_tbox, evidence=frozenset({"name"})).predictions[0].confidence > 0.9
+
+
+def test_the_confidence_that_is_written_is_no_text_of_the_object(write_stage, tmp_path, home_tbox):
+    source = write_stage(METRES + component("Bottle", cube("g"), meta=['customData = { string note = "for milk" }']))
+    path, target = tmp_path / "run.csv", tmp_path / "labels.usda"
+    path.write_text("path,class,confidence\n/Bottle,soma:DesignedContainer,0.81\n")
+    label_stage(source, read_prim_classes(path, home_tbox), home_tbox, target)
+    assert read_scene(target).objects[0].texts == (("customData:note", "for milk"),)
 
 
 def test_a_person_who_changes_a_predicted_label_decides(write_stage, tmp_path, home_tbox):

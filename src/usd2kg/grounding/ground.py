@@ -9,6 +9,7 @@ from usd2kg.grounding.concepts import add_concepts
 from usd2kg.grounding.context.views import ABBREVIATED_LENGTH, EVIDENCE_GROUPS, NamingRegime, view_objects
 from usd2kg.grounding.decisions import DecisionOrigin, decide, make_decision
 from usd2kg.grounding.model import Decision, Grounding, Prediction, Status
+from usd2kg.grounding.predicted_labels import limit_to_stated
 from usd2kg.grounding.registry import GROUNDERS, make_grounder
 from usd2kg.ontology import ClassIRI, TBox
 from usd2kg.scene import Scene
@@ -54,7 +55,10 @@ def ground(
     origins = carried or {}
     decided = {path: made for path, made in (decisions or {}).items() if path in views}
     passed = [path for path in wanted if path in views and (grounder.name in GROUNDERS or path not in decided)]
-    grounded = {p.prim_path: p for p in grounder.ground_views([(path, views[path]) for path in passed], tbox)}
+    predictions = grounder.ground_views([(path, views[path]) for path in passed], tbox)
+    if evidence is None or "labels" in evidence:
+        predictions = limit_to_stated(predictions, scene)
+    grounded = {p.prim_path: p for p in predictions}
     for path, made in decided.items():
         found = grounded.get(path)
         origin = origins.get(path)
