@@ -12,7 +12,7 @@ from pxr import Usd, UsdGeom
 from tests.graph.records import open_store
 from usd2kg import build
 from usd2kg.convert.write import convert_file
-from usd2kg.errors import SceneError
+from usd2kg.errors import GraphError, SceneError
 from usd2kg.scene import read_scene
 
 ifcopenshell = pytest.importorskip("ifcopenshell", reason="needs the extra ifc: pip install 'usd2kg[ifc]'")
@@ -136,9 +136,31 @@ def test_spaces_are_rooms_and_things_are_in_them(house: House, tmp_path: Path):
     on = {(relation.target, relation.anchor) for relation in result.graph.relations if relation.kind == "on"}
     assert (f"{STOREY}/Bread_box", f"{STOREY}/F_01") in on
     found = open_store(result.graph).sparql(
-        "SELECT ?thing WHERE { ?thing u2k:inRoom ?room . ?room rdfs:label 'Kitchen' } ORDER BY ?thing"
+        "SELECT ?thing WHERE { ?thing u2k:inRoom ?room . ?room rdfs:label '101 Kitchen' ; skos:altLabel 'Kitchen' } "
+        "ORDER BY ?thing"
     )
     assert [row[0].rpartition(".")[2] for row in found.rows if row[0]] == ["Bread_box", "F_01"]
+
+
+def test_rooms_are_found_by_number_and_by_name(house: House, tmp_path: Path):
+    store = open_store(build(house.save(tmp_path / "house.ifc")).graph)
+    for room in ("room 101", "101 Kitchen", "kitchen", "kitchen 101"):
+        assert sorted(row[0] for row in store.inside(room).rows) == ["Bread box", "F-01"], room
+    assert [row[0] for row in store.inside("room 102").rows] == ["F-02"]
+    with pytest.raises(GraphError, match="room 103"):
+        store.inside("room 103")
+
+
+@pytest.mark.parametrize(
+    ("name", "long_name", "shown"),
+    [("12", "Office 12", "Office 12"), ("Hall", "", "Hall"), (None, "Hall", "Hall"), (" 7 ", " Hall ", "7 Hall")],
+)
+def test_the_number_of_a_space_stands_once_in_its_name(tmp_path: Path, name, long_name, shown):
+    house = House()
+    space = house.add("IfcSpace", name, (0, 0, 0), (4, 3, 2.5), LongName=long_name)
+    house.compose(house.storey, space)
+    (room,) = read_scene(house.save(tmp_path / "house.ifc")).objects
+    assert (room.display_name or room.name) == shown
 
 
 def test_things_are_found_by_their_global_id(house: House, tmp_path: Path):
@@ -163,7 +185,7 @@ def test_identifiers_properties_and_containers_are_custom_data(house: House, tmp
     assert (data["globalId"], data["class"], data["tag"]) == (wall.GlobalId, "IfcWall", "W17")
     assert data["properties"] == {"Pset_WallCommon": {"FireRating": "half an hour", "IsExternal": False}}
     table = stage.GetPrimAtPath(f"{STOREY}/F_01").GetCustomDataByKey("ifc")
-    assert (table["container"], table["predefinedType"]) == ("Kitchen", "TABLE")
+    assert (table["container"], table["predefinedType"]) == ("101 Kitchen", "TABLE")
     assert stage.GetPrimAtPath(STOREY).GetCustomDataByKey("ifc:elevation") == 1.5
     scene = read_scene(tmp_path / "house.usda")
     assert "half an hour" in [text for _, text in scene.by_path[f"{STOREY}/Wall_A"].texts]

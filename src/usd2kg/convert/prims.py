@@ -68,12 +68,16 @@ class PrimAuthor:
         self._taken: dict[str, set[str]] = {}
         self._next: dict[tuple[str, str], int] = {}
 
-    def define(self, parent: str, name: str, type_name: str = "Xform") -> Usd.Prim:
-        """Return a new prim below the path `parent`; the display name keeps a name that is not a valid prim name."""
+    def define(self, parent: str, name: str, type_name: str = "Xform", display_name: str = "") -> Usd.Prim:
+        """Return a new prim below the path `parent`.
+
+        The display name is the given one; without one, it keeps a name that is not a valid prim name.
+        """
         path = Sdf.Path(parent).AppendChild(self._free_name(parent, safe_name(name)))
         prim = self.stage.DefinePrim(path, type_name)
-        if path.name != name and name:
-            prim.SetDisplayName(valid_text(name))
+        shown = display_name or name
+        if path.name != shown and shown:
+            prim.SetDisplayName(valid_text(shown))
         return prim
 
     def _free_name(self, parent: str, name: str) -> str:

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from pxr import Kind, Usd, UsdGeom, UsdSemantics, Vt
 
 from usd2kg.convert.converted import Converted, parse_error
-from usd2kg.convert.ifc.entity_facts import entity_data, kind_word, material_names, name_of
+from usd2kg.convert.ifc.entity_facts import entity_data, kind_word, material_names, name_of, numbered_name
 from usd2kg.convert.ifc.tessellation import NOT_PHYSICAL, Shape, instances_of, tessellate
 from usd2kg.convert.materials import MaterialAuthor, SurfaceMaterial
 from usd2kg.convert.origin import SOURCE_ID
@@ -150,7 +150,7 @@ class _BuildingWriter:
             pending.extend(reversed(below))
 
     def _write_entity(self, entity: Any, container: Any, parent: str, in_element: bool) -> str:
-        prim = self._author.define(parent, name_of(entity))
+        prim = self._author.define(parent, name_of(entity), display_name=numbered_name(entity))
         prim.SetCustomDataByKey("ifc", custom_data(entity_data(entity, self._metres, container)))
         prim.SetCustomDataByKey(SOURCE_ID, entity.GlobalId)
         path = str(prim.GetPath())

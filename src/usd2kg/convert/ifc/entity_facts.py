@@ -6,7 +6,7 @@ from typing import Any
 from usd2kg.knowledge import word_map, word_set
 from usd2kg.words import split_identifier
 
-__all__ = ["entity_data", "kind_word", "material_names", "name_of"]
+__all__ = ["entity_data", "kind_word", "material_names", "name_of", "numbered_name"]
 
 _CLASS_NAMES = word_map("ifc", "class_names")
 _PREDEFINED_TYPES = word_map("ifc", "predefined_types")
@@ -15,8 +15,24 @@ _UNSPECIFIC = word_set("ifc", "unspecific_classes")
 
 def name_of(entity: Any) -> str:
     """Return the name of an entity; of a space the long name, since its name often is a number. Never empty."""
-    long_name = getattr(entity, "LongName", None) if entity.is_a("IfcSpace") else None
-    return (long_name or "").strip() or (entity.Name or "").strip() or _class_name(entity)
+    return _long_name(entity) or _short_name(entity) or _class_name(entity)
+
+
+def numbered_name(entity: Any) -> str:
+    """Return the name of an entity; of a space with a long name, its number before it: `102 Server Room`.
+
+    IFC 4.3, IfcSpace: Name is the number or short name of a space, LongName its full name.
+    """
+    number, name = _short_name(entity), name_of(entity)
+    return f"{number} {name}" if _long_name(entity) and number not in name else name
+
+
+def _short_name(entity: Any) -> str:
+    return (entity.Name or "").strip()
+
+
+def _long_name(entity: Any) -> str:
+    return (getattr(entity, "LongName", None) or "").strip() if entity.is_a("IfcSpace") else ""
 
 
 def kind_word(entity: Any) -> str | None:
@@ -63,7 +79,7 @@ def entity_data(entity: Any, metres: float, container: Any = None) -> dict[str, 
         "tag": getattr(entity, "Tag", None),
         "type": element_type.Name if element_type is not None else None,
         "elevation": None if elevation is None else elevation * metres,
-        "container": name_of(container) if container is not None else None,
+        "container": numbered_name(container) if container is not None else None,
         "containerId": container.GlobalId if container is not None else None,
         "materials": list(material_names(entity)),
         "classifications": sorted({reference.Name for reference in references if getattr(reference, "Name", None)}),

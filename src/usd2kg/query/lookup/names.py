@@ -64,6 +64,7 @@ class NameMatcher:
             lambda: facts.at_path(text),
             lambda: facts.labelled({text, lower, text.upper(), text.title(), text.capitalize()}),
             lambda: self._rooms(lower),
+            lambda: self._numbered_rooms(lower),
             lambda: self._with_run(text) if any(letter.isdigit() for letter in text) else (),
         )
         named: tuple[_Criterion, ...] = (
@@ -126,6 +127,13 @@ class NameMatcher:
             # Of other words than those for rooms, the name has all: a print is no print room.
             if words == label or (words <= label and (text in _ROOM_NOUNS or head in _ROOM_NOUNS or is_place(head))):
                 yield iri
+
+    def _numbered_rooms(self, text: str) -> Iterator[str]:
+        """Yield the rooms whose names have the number of a room and all other words: room 102 is `102 Kitchen`."""
+        words = name_words(text)
+        if "room" in words and any(word.isdigit() for word in words):
+            wanted = words - {"room"}
+            yield from (iri for iri in self._facts.rooms if wanted <= name_words(self._facts.label(iri)))
 
     @cached_property
     def _words_of_rooms(self) -> dict[str, frozenset[str]]:
