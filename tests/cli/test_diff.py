@@ -20,7 +20,7 @@ def edited(write_stage: WriteStage) -> Path:
     text = renamed[:start] + renamed[end:]
     for corner in ("(0.1, 0.2, 0.7)", "(0.4, 0.5, 0.7)"):
         assert corner in text
-    for before, after in (("(0.4, ", "(0.6, "), ("(0.1, 0.2", "(0.3, 0.2")):
+    for before, after in (("(0.4, ", "(0.6, "), ("(0.1, 0.2", "(0.3, 0.2"), ("(0.1, 0.5", "(0.3, 0.5")):
         text = text.replace(before, after)
     return write_stage(text, "edited.usda")
 
