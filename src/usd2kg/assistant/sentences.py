@@ -149,9 +149,14 @@ def number_text(value: float, unit: str) -> str:
 
     >>> number_text(0.31, "m"), number_text(1.85, "m"), number_text(0.4, "kg"), number_text(3900, "kg")
     ('31 cm', '1.85 m', '400 g', '3,900 kg')
+    >>> number_text(180.5, "kg"), number_text(180, "kg")
+    ('180.5 kg', '180 kg')
     """
     if unit == "m" and abs(value) < 1:
         return f"{value * 100:.3g} cm"
     if unit == "kg" and abs(value) < 1:
         return f"{value * 1000:.3g} g"
-    return f"{value:,.0f} {unit}" if abs(value) >= 1000 else f"{value:.3g} {unit}"
+    if abs(value) >= 1000:
+        return f"{value:,.0f} {unit}"
+    number = f"{value:.1f}".removesuffix(".0") if abs(value) >= 100 else f"{value:.3g}"
+    return f"{number} {unit}"

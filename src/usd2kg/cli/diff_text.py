@@ -6,7 +6,7 @@ from collections.abc import Iterable, Iterator, Sequence
 from typing import TYPE_CHECKING
 
 from usd2kg.cli.limits import CHANGES_PER_KIND, MOVES_TO_GROUP
-from usd2kg.cli.object_text import box_size_text, numbers_text
+from usd2kg.cli.object_text import box_size_text, mass_text, numbers_text
 from usd2kg.cli.output import count_noun, replace_controls, to_single_line
 
 if TYPE_CHECKING:
@@ -171,7 +171,7 @@ def _property_lines(changed: "Iterable[Change]") -> Iterator[str]:
     for change in changed:
         parts = []
         if change.mass is not None:
-            parts.append("mass " + " → ".join("unknown" if m is None else f"{m:.3g} kg" for m in change.mass))
+            parts.append("mass " + " → ".join("unknown" if m is None else f"{mass_text(m)} kg" for m in change.mass))
         if change.assets is not None:
             parts.append("asset " + " → ".join(", ".join(sorted(names)) or "none" for names in change.assets))
         if parts:

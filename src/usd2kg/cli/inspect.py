@@ -16,6 +16,7 @@ from usd2kg.cli.object_text import (
     joint_rows,
     jointed_objects,
     litres_text,
+    mass_text,
     numbers_text,
     object_rows,
     shape_rows,
@@ -167,7 +168,7 @@ def _object_cells(obj: "SceneObject") -> list[str | None]:
     return [
         obj.prim_path,
         box_size_text(obj.box.size) if obj.box else "no geometry",
-        f"{obj.mass_kg:.3g}" if obj.mass_kg is not None else None,
+        mass_text(obj.mass_kg) if obj.mass_kg is not None else None,
         numbers_text(obj.position) if obj.position else None,
         ", ".join(obj.asset),
         _names_cell(obj.materials),

@@ -2,6 +2,7 @@
 
 import math
 from collections.abc import Iterator, Sequence
+from decimal import Decimal
 from typing import TYPE_CHECKING
 
 from usd2kg.prim_paths import nearest_in
@@ -15,6 +16,7 @@ __all__ = [
     "joint_rows",
     "jointed_objects",
     "litres_text",
+    "mass_text",
     "numbers_text",
     "object_rows",
     "shape_rows",
@@ -68,7 +70,7 @@ def _measure_rows(obj: "SceneObject") -> Rows:
     if obj.orientation and abs(obj.orientation[3]) < _UNROTATED:
         yield "orientation", f"{numbers_text(obj.orientation)} (quaternion x y z w)"
     if obj.mass_kg is not None:
-        yield "mass", f"{obj.mass_kg:.3g} kg"
+        yield "mass", f"{mass_text(obj.mass_kg)} kg"
 
 
 def _box_text(box: "Box") -> str:
@@ -183,6 +185,18 @@ def litres_text(cubic_metres: float) -> str:
     """
     litres = cubic_metres * 1000
     return f"{litres:.0f}" if litres >= 100 else f"{litres:.3g}"
+
+
+def mass_text(kilograms: float) -> str:
+    """Return a mass in kilograms, to one decimal from 100 kg on and to four significant digits below.
+
+    >>> mass_text(2847), mass_text(180.5), mass_text(0.12345), mass_text(0.00001)
+    ('2847', '180.5', '0.1235', '0.00001')
+    """
+    if kilograms >= 100:
+        return f"{kilograms:.1f}".removesuffix(".0")
+    # Unlike a float, a decimal has no scientific notation.
+    return f"{Decimal(f'{kilograms:.4g}'):f}"
 
 
 def tight_size_text(shape: "ShapeDescriptors") -> str:
