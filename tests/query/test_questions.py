@@ -173,6 +173,17 @@ class TestGiven:
         assert message in str(error.value)
         assert "\n" not in str(error.value)
 
+    def test_a_default_that_the_graph_lacks_is_asked_for(self, home_tbox: TBox):
+        table = (thing("/Room/Table", (0, 0, 0), (1, 1, 0.7)), "Table")
+        store = open_store(build_graph(home_tbox, [table]))
+        with pytest.raises(GraphError) as error:
+            store.answer("which-where")
+        assert str(error.value).startswith(
+            "question which-where needs --with class=CLASS for this graph: room.ttl: no class or concept is named "
+            "'appliance'; expected a noun that is a concept of an object, or one of the classes table"
+        )
+        assert objects(store.answer("which-where", {"class": "table"})) == ["Table"]
+
     @pytest.mark.parametrize("name", ['"} ; ?s ?p ?o . {"', "> } UNION { ?o ?p <http://evil", "?the_thing", "{thing}"])
     def test_labels_cannot_inject_sparql(self, home_tbox: TBox, name: str):
         placed = [

@@ -15,7 +15,7 @@ from usd2kg.query.body_table import parse_vector
 from usd2kg.query.complexity import check_complexity
 from usd2kg.query.dataset import QUERY_PREFIXES, Dataset, term_list, with_prefixes
 from usd2kg.query.functions import make_functions
-from usd2kg.query.lookup import Nouns, SceneFacts
+from usd2kg.query.lookup import Nouns, SceneFacts, UnknownWordError
 from usd2kg.query.questions import Parameter, Question, find_question, parse_number
 from usd2kg.query.remote_clauses import REMOTE_QUERY, has_remote_clause
 from usd2kg.query.settings import LOOKUP
@@ -119,7 +119,7 @@ class GraphStore:
         for name, value in (given or {}).items():
             check_text(value, name)
         filled = question.fill(given or {})
-        choices = [self._terms(parameter, value) for parameter, value in filled.items()]
+        choices = [self._terms_or_advice(question, p, value, given or {}) for p, value in filled.items()]
         ambiguous = [p for p, terms in zip(filled, choices, strict=True) if p.kind == "object" and len(terms) > 1]
         answers = []
         for terms in itertools.product(*choices):
@@ -135,6 +135,18 @@ class GraphStore:
         distance, origin = ({p.name: terms[0] for p, terms in bound.items()}[name] for name in question.candidates)
         found = self._bodies.within(float(distance.value), str(origin.value))
         return None if found is None or len(found) > LOOKUP.max_listed else [*map(ox.NamedNode, found)]
+
+    def _terms_or_advice(
+        self, question: Question, parameter: Parameter, value: str, given: Mapping[str, str]
+    ) -> Sequence[_Terms]:
+        """Return what a value can denote; the error about a default that a graph lacks names the option."""
+        try:
+            return self._terms(parameter, value)
+        except UnknownWordError as error:
+            if parameter.name in given:
+                raise
+            option = f"--with {parameter.name}={parameter.kind.upper()}"
+            raise UnknownWordError(f"question {question.id} needs {option} for this graph: {error}") from error
 
     def _terms(self, parameter: Parameter, value: str) -> Sequence[_Terms]:
         """Return what a value can denote; the question is asked for each."""
@@ -238,8 +250,8 @@ class GraphStore:
     def _kinds(self, name: str) -> list[ox.NamedNode]:
         try:
             return Nouns(self._facts).kinds(name)
-        except GraphError as error:
-            raise GraphError(f"{self._source}: {error}") from error
+        except UnknownWordError as error:
+            raise UnknownWordError(f"{self._source}: {error}") from error
 
     def _about(self, template: templates.QueryTemplate, name: str) -> Answer:
         things = self._kinds(name) if template.takes_kind else self.find(name)
