@@ -35,6 +35,15 @@ def test_valid_graph_has_no_findings(run: Run, good: Path):
     assert (done.code, done.out) == (0, "0 findings on 7 objects\n")
 
 
+def test_says_what_the_built_in_ontology_lacks(run: Run, good: Path):
+    message = (
+        "ontology: the built-in ontology stands in for <http://www.ease-crc.org/ont/SOMA-HOME.owl>: classes and "
+        "hierarchy are checked, disjointness, domains and ranges are not; name its file with --ontology to check them"
+    )
+    lines = run("validate", good).err.splitlines()
+    assert [line for line in lines if "SOMA-HOME" in line] == [message]
+
+
 def test_prints_findings_as_text(run: Run, odd: Path):
     done = run("validate", odd)
     assert done.code == 1

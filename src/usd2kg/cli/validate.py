@@ -88,7 +88,7 @@ def _open_closure(store: "GraphStore", ontology: Path | None) -> "Closure | None
 
     None, with a message, if the graph states an ontology other than the built-in one and no file is given.
     """
-    from usd2kg.ontology import read_closure  # noqa: PLC0415
+    from usd2kg.ontology import built_in_document, read_closure  # noqa: PLC0415
     from usd2kg.pipeline import open_tbox  # noqa: PLC0415
     from usd2kg.validation import imports_of, ontology_of  # noqa: PLC0415
 
@@ -101,7 +101,15 @@ def _open_closure(store: "GraphStore", ontology: Path | None) -> "Closure | None
         notify(f"ontology: the graph was built with <{stated}>, and {ontology} is <{tbox.ontology_iri}>")
     closure = read_closure(tbox, imports_of(store))
     for iri in closure.missing:
-        notify(f"missing-import: <{iri}> is not available, its axioms are not checked; name its file with --ontology")
+        if ontology is None and built_in_document(iri) is not None:
+            notify(
+                f"ontology: the built-in ontology stands in for <{iri}>: classes and hierarchy are checked, "
+                "disjointness, domains and ranges are not; name its file with --ontology to check them"
+            )
+        else:
+            notify(
+                f"missing-import: <{iri}> is not available, its axioms are not checked; name its file with --ontology"
+            )
     return closure
 
 

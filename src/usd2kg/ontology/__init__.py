@@ -5,7 +5,7 @@ from typing import TYPE_CHECKING
 from usd2kg.lazy_names import lazy_names
 
 if TYPE_CHECKING:
-    from usd2kg.ontology.built_in import PLACES_IRI, SOMA_HOME
+    from usd2kg.ontology.built_in import PLACES_IRI, SOMA_HOME, built_in_document
     from usd2kg.ontology.class_axioms import LABELS
     from usd2kg.ontology.closure import Closure, read_closure, without_header
     from usd2kg.ontology.fetch import fetch_ontology
@@ -28,6 +28,7 @@ __all__ = [
     "OntologyClass",
     "OntologyNote",
     "TBox",
+    "built_in_document",
     "compact_iri",
     "expand_curie",
     "fetch_ontology",
@@ -57,6 +58,7 @@ __getattr__ = lazy_names(
         "OntologyClass": "model",
         "OntologyNote": "model",
         "TBox": "model",
+        "built_in_document": "built_in",
         "compact_iri": "prefixes",
         "expand_curie": "prefixes",
         "fetch_ontology": "fetch",
