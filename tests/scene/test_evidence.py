@@ -64,14 +64,17 @@ def test_a_mass_that_is_no_mass_is_reported(read, mass):
 
 def test_a_density_without_a_mass_is_reported_once(read):
     dense = "float physics:density = 7850"
-    both = heavy("d", 2, dense)
-    parts = component("c", heavy("body", 0, dense), heavy("lid", 0, dense))
+    floor = heavy("floor", 0, dense)
+    body = rigid("body", heavy("shell", 0, dense), heavy("lid", 0, dense))
+    other = rigid("pipe", heavy("shell", 0, dense))
+    weighed = rigid("weighed", heavy("shell", 2, dense))
     message = (
         "2 objects have a density (physics:density) and no mass; densities are not evaluated, so there is no mass in "
         "the graph; author physics:mass"
     )
-    assert mass_notes(read, heavy("a", 0), heavy("b", 0, dense), parts, both) == [("/World/b", message)]
-    assert mass_notes(read, parts)[0][1].startswith("1 object has a density (physics:density) and no mass; densities")
+    assert mass_notes(read, floor, rigid("hollow", cube("a")), body, other, weighed) == [("/World/body/shell", message)]
+    assert mass_notes(read, body)[0][1].startswith("1 object has a density (physics:density) and no mass; densities")
+    assert mass_notes(read, floor) == []
 
 
 def test_ignores_a_mass_without_its_schema(read):

@@ -105,7 +105,7 @@ def notes(scene):
 def test_copies_that_are_one_object_are_reported_with_the_option(read):
     buckets = instancer("Buckets", bucket(), indices=(0, 0, 0))
     expected = "its point instancers draw 3 copies of Bucket that are one object"
-    remedy = "; make every copy an object with --expand-instancers"
+    remedy = "; --expand-instancers makes every copy an object"
     assert notes(read(xform("World", buckets, cube("b")))) == [("/World/Buckets", expected + remedy)]
     pails = instancer("Pails", prototypes=("/World/Buckets/Bucket",))
     several = expected + ", and 2 such objects have 5 copies in all" + remedy

@@ -34,7 +34,7 @@ class MassReader:
         self._frame = frame
         self._notes: list[Diagnostic] = []
         self._with_density: list[str] = []
-        """Paths of prims with a density, of objects without a mass."""
+        """Path of the first prim with a density, of each rigid body without a mass."""
 
     def read(self, records: list[PrimRecord], read_point: PointReader) -> Mass:
         """Return mass and centre of mass of the object's prim or, if it has none, of its parts together.
@@ -52,7 +52,8 @@ class MassReader:
         weights = masses or [(records[0], 1.0)]
         centers = [(center, mass) for record, mass in weights if (center := _center(record, read_point))]
         is_known = len(centers) == max(len(masses), 1)
-        if not masses:
+        # What never moves, such as a floor, needs no mass.
+        if not masses and any(record.is_body for record in records):
             self._with_density += [record.path for record in records if _has_density(record)][:1]
         return Mass(total if 0 < total < math.inf else None, _weighted_mean(centers) if is_known else None)
 

@@ -56,7 +56,7 @@ def _check_copies(scene: Scene) -> list[Diagnostic]:
     if drawn[1:]:
         total = sum(instances.count for _, instances in drawn)
         found += f", and {len(drawn)} such objects have {total} copies in all"
-    return [Diagnostic("instancer", f"{found}; make every copy an object with --expand-instancers", path)]
+    return [Diagnostic("instancer", f"{found}; --expand-instancers makes every copy an object", path)]
 
 
 def _check_places(scene: Scene) -> list[Diagnostic]:
