@@ -12,7 +12,7 @@ from usd2kg.errors import EvaluationError, OntologyError
 from usd2kg.ontology import ClassIRI, TBox
 from usd2kg.scene import Scene
 
-__all__ = ["GoldLabel", "check_gold", "read_gold"]
+__all__ = ["GoldLabel", "check_gold", "check_unique", "read_gold"]
 
 logger = logging.getLogger(__name__)
 
@@ -63,7 +63,7 @@ def _read_rows(path: Path, rows: "csv.DictReader[str]", tbox: TBox) -> tuple[Gol
             expected = f"expected {_SECOND_LABELS!r} for second labels, or another name"
             raise EvaluationError(f"{path}: line 1 has the column {name!r}; {expected}")
     labels = [_label(path, rows.line_num, row, tbox) for row in rows if (row["path"] or "").strip()]
-    _check_unique(path, labels)
+    check_unique(path, (label.prim_path for label in labels))
     if not labels:
         raise EvaluationError(f"{path}: contains no label; expected a row {_HEADER} for each object")
     return tuple(labels)
@@ -88,12 +88,17 @@ def _label(path: Path, line: int, row: Mapping[str | None, Any], tbox: TBox) -> 
     return GoldLabel(prim_path, target, also - {target})
 
 
-def _check_unique(path: Path, labels: Iterable[GoldLabel]) -> None:
+def check_unique(path: Path, prim_paths: Iterable[str]) -> None:
+    """Check that a file has one row per prim.
+
+    Raises:
+        EvaluationError: it has more than one row for a prim.
+    """
     seen: set[str] = set()
-    for label in labels:
-        if label.prim_path in seen:
-            raise EvaluationError(f"{path}: {label.prim_path} has more than one row; expected one row per prim")
-        seen.add(label.prim_path)
+    for prim_path in prim_paths:
+        if prim_path in seen:
+            raise EvaluationError(f"{path}: {prim_path} has more than one row; expected one row per prim")
+        seen.add(prim_path)
 
 
 def check_gold(path: Path, gold: Sequence[GoldLabel], scene: Scene) -> None:

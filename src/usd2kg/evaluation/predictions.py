@@ -2,11 +2,12 @@
 
 import csv
 import io
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterator
 from dataclasses import replace
 from pathlib import Path
 
 from usd2kg.errors import EvaluationError, OntologyError
+from usd2kg.evaluation.gold import check_unique
 from usd2kg.grounding import Grounding, Prediction, Status, read_grounding
 from usd2kg.grounding.sssom_decisions import EXPECTED, REQUIRED, is_sssom, last_rows, read_class
 from usd2kg.grounding.sssom_file import read_sssom_file
@@ -41,7 +42,7 @@ def read_predictions(path: Path | str, scene: Scene, tbox: TBox) -> Grounding:
         found = _read_json(path, tbox)
     else:
         found = list(_read_sssom(path, text, tbox) if is_sssom(path) else _read_csv(path, text, tbox))
-    _check_unique(path, found)
+    check_unique(path, (prediction.prim_path for prediction in found))
     return Grounding(
         scene=scene.source,
         scene_hash=scene.content_hash,
@@ -112,11 +113,3 @@ def _confidence(where: str, text: str) -> float:
     if not 0 <= number <= 1:
         raise EvaluationError(f"{where}: the confidence is {text!r}; expected a number from 0 to 1, or an empty cell")
     return number
-
-
-def _check_unique(path: Path, predictions: Iterable[Prediction]) -> None:
-    seen: set[str] = set()
-    for prediction in predictions:
-        if prediction.prim_path in seen:
-            raise EvaluationError(f"{path}: {prediction.prim_path} has more than one row; expected one row per prim")
-        seen.add(prediction.prim_path)
