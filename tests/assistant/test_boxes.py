@@ -104,3 +104,43 @@ def test_a_remark_that_nothing_is_left_out_changes_nothing(room: GraphStore):
 
 def test_what_is_inside_a_rack_is_on_it(room: GraphStore):
     assert found(room, "what's on the Rack?") == ["Shoe"]
+
+
+# A forklift of 1.2 × 2.5 × 2.1 m stands oblique in a hall, so its box is wider. One of three pallets carries drums.
+HALL = [
+    (thing("/H/Floor", (-9, -9, -0.1), (18, 18, 0.1)), "Floor"),
+    (thing("/H/Forklift", (3, 3, 0), (2.62, 2.62, 2.1), oriented_size=(1.2, 2.5, 2.1)), "DesignedArtifact"),
+    *((thing(f"/H/Pallet_{n}", (-6 + 3 * n, -6, 0), (1.2, 0.8, 0.15)), "DesignedArtifact") for n in range(3)),
+    *((thing(f"/H/Drum_{n}", (-5.9 + 0.5 * n, -5.8, 0.15), (0.4, 0.4, 0.9)), "DesignedContainer") for n in range(2)),
+]
+
+
+@pytest.fixture(scope="module")
+def hall(home_tbox: TBox) -> GraphStore:
+    return open_store(build_graph(home_tbox, HALL))
+
+
+@pytest.mark.parametrize(
+    ("question", "number"),
+    [("how wide is the forklift?", 2.5), ("how deep is the forklift?", 1.2), ("how tall is the forklift?", 2.1)],
+)
+def test_sides_are_along_a_things_own_axes(hall: GraphStore, question: str, number: float):
+    assert ask_offline(hall, question).number == pytest.approx(number)
+
+
+def test_a_tilted_thing_is_measured_by_its_box(home_tbox: TBox):
+    ladder = thing("/H/Ladder", (0, 0, 0), (1.1, 0.5, 1.9), oriented_size=(0.05, 0.5, 2.2))
+    graph = open_store(build_graph(home_tbox, [(ladder, "DesignedArtifact")]))
+    assert ask_offline(graph, "how wide is the ladder?").number == pytest.approx(1.1)
+
+
+@pytest.mark.parametrize(
+    ("question", "sentence"),
+    [
+        ("how many drums are on the pallet?", "Two containers are on the artifact Pallet_0."),
+        ("what is the forklift on?", "Forklift is on the floor."),
+        ("what is on the forklift?", "Nothing is on the artifact Forklift."),
+    ],
+)
+def test_what_a_thing_is_on(hall: GraphStore, question: str, sentence: str):
+    assert ask_offline(hall, question).sentence == sentence

@@ -1,5 +1,6 @@
 """Metadata of an IFC entity: name, kind, identifiers, properties."""
 
+import re
 from collections.abc import Mapping
 from typing import Any
 
@@ -24,7 +25,8 @@ def numbered_name(entity: Any) -> str:
     IFC 4.3, IfcSpace: Name is the number or short name of a space, LongName its full name.
     """
     number, name = _short_name(entity), name_of(entity)
-    return f"{number} {name}" if _long_name(entity) and number not in name else name
+    is_new = number and re.search(rf"(?<!\w){re.escape(number)}(?!\w)", name) is None
+    return f"{number} {name}" if _long_name(entity) and is_new else name
 
 
 def _short_name(entity: Any) -> str:
