@@ -153,7 +153,14 @@ def test_rooms_are_found_by_number_and_by_name(house: House, tmp_path: Path):
 
 @pytest.mark.parametrize(
     ("name", "long_name", "shown"),
-    [("12", "Office 12", "Office 12"), ("Hall", "", "Hall"), (None, "Hall", "Hall"), (" 7 ", " Hall ", "7 Hall")],
+    [
+        ("12", "Office 12", "Office 12"),
+        ("Hall", "", "Hall"),
+        (None, "Hall", "Hall"),
+        (" 7 ", " Hall ", "7 Hall"),
+        # It is no part of another number.
+        ("1", "Room 10", "1 Room 10"),
+    ],
 )
 def test_the_number_of_a_space_stands_once_in_its_name(tmp_path: Path, name, long_name, shown):
     house = House()
