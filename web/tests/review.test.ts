@@ -416,6 +416,24 @@ describe("fast and concurrent reviewers", () => {
     await vi.waitFor(() => expect(sent).toEqual([{ objects: [3], action: "confirm" }]));
   });
 
+  it("has not seen what another reviewer decided a moment ago", async () => {
+    const seen: number[] = [];
+    const post = async <T>(_: string, body: unknown) => {
+      seen.push((body as { seen: number }).seen);
+      return { ...reply([], {}), version: 2 } as T;
+    };
+    const store = makeStore(post);
+    const now = vi.spyOn(performance, "now").mockReturnValue(1000);
+    store.server.receive(change(1, 2, { state: "confirmed" }));
+    now.mockReturnValue(1400);
+    await store.decide([1], "no-class");
+    await store.decide([3], "confirm");
+    now.mockReturnValue(1900);
+    await store.decide([1], "no-class");
+    now.mockRestore();
+    expect(seen).toEqual([0, 2, 2]);
+  });
+
   it("shows the group of the last of several undos, whatever the order of the answers", async () => {
     const answers: (() => void)[] = [];
     let version = 0;

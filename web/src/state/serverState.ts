@@ -2,12 +2,32 @@
 
 import { batch, computed, signal } from "@preact/signals";
 import { ApiFailure } from "../api/client";
-import type { ChangeEvent, DecisionReply, ObjectState, Outputs, States, SuggestionsEvent } from "../api/types";
+import type {
+  ChangeEvent,
+  DecisionReply,
+  ObjectIndex,
+  ObjectState,
+  Outputs,
+  States,
+  SuggestionsEvent,
+} from "../api/types";
 import { messageOf } from "./messages";
 import { StateTable } from "./stateTable";
 import type { Store } from "./store";
 
 export type Saving = "saved" | "saving" | "failed" | "offline";
+
+/** A key pressed so soon after the page has changed was meant for what it showed before. */
+export const REACTION_MS = 800;
+
+/** A change by another reviewer. */
+interface Arrival {
+  /** As `performance.now()`. */
+  at: number;
+  /** Version before it. */
+  before: number;
+  objects: ReadonlySet<ObjectIndex>;
+}
 
 /** A request whose answer was lost: it may be on disk or not. */
 interface LostRequest {
@@ -41,6 +61,7 @@ export class ServerState {
   /** Decisions, undo and redo reach the server in the order of the keys. */
   private lastSent: Promise<unknown> = Promise.resolve();
   private lost: LostRequest[] = [];
+  private arrivals: Arrival[] = [];
 
   constructor(
     private readonly store: Pick<Store, "client" | "reviewer" | "page" | "notify" | "loadQueue" | "reportLoading">,
@@ -146,9 +167,23 @@ export class ServerState {
     this.outputs.value = reply.outputs;
   }
 
+  /** Returns the version of the last change that a person can have read about objects before deciding now. */
+  seenOf(objects: readonly ObjectIndex[]): number {
+    const unread = this.recentArrivals().filter((arrival) => objects.some((object) => arrival.objects.has(object)));
+    return Math.min(this.version.value, ...unread.map(({ before }) => before));
+  }
+
+  private recentArrivals(): Arrival[] {
+    return this.arrivals.filter(({ at }) => performance.now() - at < REACTION_MS);
+  }
+
   /** Takes in a change that the server announces: of another page, or of this one, whose reply may be lost. */
   receive(change: ChangeEvent): void {
     if (change.version <= this.version.value) return;
+    if (change.reviewer !== this.store.reviewer.value) {
+      const objects = new Set(change.states.map(({ object }) => object));
+      this.arrivals = [...this.recentArrivals(), { at: performance.now(), before: this.version.value, objects }];
+    }
     batch(() => {
       this.table.apply(change.states, change.version);
       this.version.value = change.version;

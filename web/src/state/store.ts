@@ -23,7 +23,7 @@ import { buildModel, type SceneModel } from "./model";
 import { findAgain, groupAfter, restrictGroups, withoutObjects } from "./queue";
 import { isOpen, predictStates, withoutSuggestion } from "./review";
 import { keepReviewer, type NameStorage, storedReviewer, storeReviewer } from "./reviewer";
-import { ServerState } from "./serverState";
+import { REACTION_MS, ServerState } from "./serverState";
 
 export type Drawer = "review" | "ask" | "sparql" | "diagnostics" | "run" | "compare";
 
@@ -37,8 +37,6 @@ interface Notice {
 }
 
 const MAX_FRAMED = 200;
-/** A key pressed so soon after the queue moved by itself was meant for the group before. */
-const MOVED_MS = 800;
 
 export class Store {
   readonly model: SceneModel;
@@ -282,7 +280,7 @@ export class Store {
       action,
       reviewer: this.reviewer.value,
       page: this.page,
-      seen: this.server.version.value,
+      seen: this.server.seenOf(objects),
       ...(chosen === undefined ? {} : { class: chosen }),
       ...details,
       ...(isAuditOf(this, objects, action, details) ? { audit: true } : {}),
@@ -302,7 +300,7 @@ export class Store {
 
   /** Tells the reviewer, once, that the keys now decide about another group. */
   private hasJustMoved(): boolean {
-    if (performance.now() - this.moved.at > MOVED_MS) return false;
+    if (performance.now() - this.moved.at > REACTION_MS) return false;
     this.moved.at = Number.NEGATIVE_INFINITY;
     this.notify(`${this.moved.why} Press the key again to decide about this one.`);
     return true;
