@@ -1,5 +1,7 @@
 """Questions that boxes answer where the graph states no relation, and kinds that size and class show."""
 
+from dataclasses import replace
+
 import pytest
 
 from tests.graph.records import build_graph, open_store, thing
@@ -144,3 +146,14 @@ def test_a_tilted_thing_is_measured_by_its_box(home_tbox: TBox):
 )
 def test_what_a_thing_is_on(hall: GraphStore, question: str, sentence: str):
     assert ask_offline(hall, question).sentence == sentence
+
+
+def test_the_mass_of_a_whole_is_given_with_its_parts(home_tbox: TBox):
+    cart = [
+        (thing("/H/Floor", (-3, -3, -0.1), (6, 6, 0.1)), "Floor"),
+        (thing("/H/Cart", (0, 0, 0.15), (1, 0.6, 0.5), mass_kg=50), "DesignedArtifact"),
+        *((thing(f"/H/Cart/wheel_{n}", (n, 0, 0), (0.2, 0.05, 0.2), mass_kg=2), "DesignedComponent") for n in range(2)),
+    ]
+    joints = [replace(HINGE, prim_path=f"/H/joint_{n}", body0="/H/Cart", body1=f"/H/Cart/wheel_{n}") for n in range(2)]
+    asked = ask_offline(open_store(build_graph(home_tbox, cart, joints=joints)), "how heavy is the cart?")
+    assert (asked.number, asked.sentence) == (50, "Cart weighs 50 kg, 54 kg with two parts.")

@@ -7,7 +7,7 @@ import numpy as np
 from usd2kg.assistant.answers import Answers, Handler
 from usd2kg.assistant.free_places import find_free_places, flat_tops, thing_to_place
 from usd2kg.assistant.interpreted_answer import InterpretedAnswer
-from usd2kg.assistant.sentences import begin_sentence, join_few, join_words, name_things, yes_or_no
+from usd2kg.assistant.sentences import begin_sentence, count_phrase, join_few, join_words, name_things, yes_or_no
 from usd2kg.assistant.settings import PLACING
 from usd2kg.errors import GraphError
 from usd2kg.grounding import concepts_named
@@ -76,7 +76,7 @@ class MeasureAnswers(Answers):
             elif measure is AREA:
                 parts.append(f"{facts.label(iri)} covers {self._text(value, measure.unit)}")
             elif measure is MASS:
-                parts.append(f"{facts.label(iri)} weighs {self._text(value, 'kg')}")
+                parts.append(f"{facts.label(iri)} weighs {self._text(value, 'kg')}{self._mass_with_parts(iri, value)}")
             elif measure is ELEVATION:
                 parts.append(f"the underside of {facts.label(iri)} is {self._text(value, 'm')} above the floor")
             else:
@@ -92,6 +92,13 @@ class MeasureAnswers(Answers):
             number=next(iter(values.values())),
             sentence=sentence,
         )
+
+    def _mass_with_parts(self, iri: str, mass: float) -> str:
+        """Return what a thing weighs with its parts, such as the mast of a forklift; empty if none has a mass."""
+        parts = self._bodies.values(find_parts(self._facts, [iri]), MASS)
+        if not parts:
+            return ""
+        return f", {self._text(mass + sum(parts.values()), 'kg')} with {count_phrase(len(parts), 'part')}"
 
     def _measure_scene(self, text: str, measure: Measure) -> InterpretedAnswer:
         """Return a measure of the box around the walls and floors, or around all things if there are none."""
